@@ -84,7 +84,8 @@ Occluders CpuRenderer::occludersOf(const PreparedView& view) const {
     occluders.eye = view.frame.eye;
     if (!view.lightGrid.empty()) occluders.spheres = &view.lightGrid;
     if (!depthMap_.empty()) occluders.metaballs = &depthMap_;
-    if (view.view->light.shadows) occluders.boxes = view.view->boxObstacles;
+    if (view.view->light.shadows && !view.view->boxObstacles.empty()) occluders.lightBoxes = &view.lightBoxes;
+    occluders.boxes = view.view->boxObstacles;
     occluders.softness = view.view->light.softness;
     occluders.meanRadius = view.meanRadius;
     if (view.hasOcclusion()) {
@@ -97,8 +98,8 @@ Occluders CpuRenderer::occludersOf(const PreparedView& view) const {
 /// The job points into the prepared view, the sampling and this object, which have to outlive it.
 PictureJob CpuRenderer::pictureJob(const PreparedView& view, const Sampling& sampling) const {
     const std::vector<BoxObstacle>& boxes = view.view->boxObstacles;
-    const SolidGeometry solids{view.frame, view.viewSpheres,   view.spherePixels, &view.sphereTiles,
-                               boxes,      view.groundHeight()};
+    const SolidGeometry solids{view.frame, view.viewSpheres, view.spherePixels,  &view.sphereTiles,
+                               boxes,      &view.boxTiles,   view.groundHeight()};
     const ShadingGeometry geometry{view.frame,
                                    view.drawn.spheres,
                                    view.sphereAttributes,
@@ -110,7 +111,7 @@ PictureJob CpuRenderer::pictureJob(const PreparedView& view, const Sampling& sam
                                    view.light.toLight,
                                    view.needsSkyVisibility};
     const Occluders occluders = occludersOf(view);
-    return {{solids, view.hasMetaballs ? &metaballHits_ : nullptr, view.lines, view.boxTiles, view.groundTiles},
+    return {{solids, view.hasMetaballs ? &metaballHits_ : nullptr, view.lines, view.groundTiles},
             sampling.samples == 1 ? SampleOffsets(&sampling.offset, 1) : kFourSamples,
             geometry,
             occluders.isEmpty() ? std::nullopt : std::optional(occluders),

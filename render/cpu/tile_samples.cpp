@@ -33,7 +33,7 @@ void keepNearer(TileRays& rays, std::size_t k, float depth, std::int32_t hitId) 
 }  // namespace
 
 TileKind TileContents::kindOf(std::size_t tile) const {
-    const bool hasObjects = hasSpheres(tile) || boxes[tile] != 0 || hasMetaballs(tile) || hasLines(tile);
+    const bool hasObjects = hasSpheres(tile) || hasBoxes(tile) || hasMetaballs(tile) || hasLines(tile);
     return hasObjects ? TileKind::mixed : ground[tile];
 }
 
@@ -41,7 +41,7 @@ TileSamples::TileSamples(const TileContents& contents, SampleOffsets offsets, st
     : contents_(contents), tile_(tile), samples_(rays_.data(), offsets.size()) {
     const glm::vec2 corner = tileCorner(*contents.geometry.tiles, tile);
     for (std::size_t s = 0; s < offsets.size(); ++s) placeRays(corner + 0.5F + offsets[s], samples_[s]);
-    const FlatGeometry flats{contents.ground[tile] != TileKind::background, contents.boxes[tile] != 0};
+    const FlatGeometry flats{contents.ground[tile] != TileKind::background, contents.geometry.boxTiles->itemsOf(tile)};
     for (TileRays& rays : samples_) findFlatHits(contents.geometry, flats, rays);
     if (contents.hasMetaballs(tile)) addMetaballs();
     if (contents.hasSpheres(tile)) findSphereHits(contents.geometry, tile, samples_);

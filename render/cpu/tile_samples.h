@@ -22,10 +22,10 @@ struct TileContents {
     SolidGeometry geometry;
     const MetaballHits* metaballs;  ///< null without metaballs
     const LineList& lines;
-    std::span<const std::uint8_t> boxes;  ///< per tile: 1 where a box may be seen
-    std::span<const TileKind> ground;     ///< per tile: what it shows as long as nothing stands before the ground
+    std::span<const TileKind> ground;  ///< per tile: what it shows as long as nothing stands before the ground
 
     bool hasSpheres(std::size_t tile) const { return !geometry.tiles->itemsOf(tile).empty(); }
+    bool hasBoxes(std::size_t tile) const { return !geometry.boxTiles->itemsOf(tile).empty(); }
     bool hasLines(std::size_t tile) const { return !lines.tiles.itemsOf(tile).empty(); }
     bool hasMetaballs(std::size_t tile) const { return metaballs != nullptr && metaballs->slots[tile] >= 0; }
     TileKind kindOf(std::size_t tile) const;

@@ -66,13 +66,15 @@ FrameUniforms frameUniforms(const PreparedView& prepared, glm::vec2 offset) {
     to.lightV = {prepared.light.v, 0.0F};
     const LightGrid& casters = prepared.lightGrid;
     to.lightCells = {casters.origin, 1.0F / casters.cellSize, 0.0F};
-    to.lightCellCount = glm::vec4(casters.columns, casters.rows, 0, 0);
+    const LightBoxGrid& boxes = prepared.lightBoxes;
+    to.boxCells = {boxes.origin, 1.0F / boxes.cellSize, boxes.widestPixel};
+    to.lightCellCount = glm::vec4(casters.columns, casters.rows, boxes.columns, boxes.rows);
     const SkyVisibilityGrid& sky = prepared.skyGrid;
     to.skyCells = {sky.origin - prepared.frame.eye, 1.0F / sky.side};
     to.skyCellCount = glm::vec4(sky.cells, 0);
     to.sampleOffset = {offset, 0.0F, 0.0F};
     if (prepared.hasMetaballs) setMetaballs(prepared, offset, to);
-    to.counts = glm::vec4(prepared.drawn.firstObstacle, view.boxObstacles.size(), view.surface.glossExponent, 0.0F);
+    to.counts = glm::vec4(prepared.drawn.firstObstacle, view.surface.glossExponent, 0.0F, 0.0F);
     return to;
 }
 

@@ -16,7 +16,7 @@ struct FrameUniforms {
     glm::vec4 surroundingsTop, surroundingsHorizon, surroundingsBottom;
     glm::vec4 backgroundTop, backgroundBottom;
     glm::vec4 groundColor, groundCenter;
-    glm::vec4 lightCells, skyCells, depthMapGrid, depthMapSize;
+    glm::vec4 lightCells, boxCells, skyCells, depthMapGrid, depthMapSize;
     glm::vec4 sampleOffset;
     glm::vec4 lightCellCount, skyCellCount, metaballs, counts;
 };

@@ -11,7 +11,7 @@ namespace render {
 namespace {
 
 TileClass classOf(const PreparedView& view, std::size_t tile) {
-    if (view.boxTiles[tile] != 0 || !view.lines.tiles.itemsOf(tile).empty()) return TileClass::flats;
+    if (!view.boxTiles.itemsOf(tile).empty() || !view.lines.tiles.itemsOf(tile).empty()) return TileClass::flats;
     const bool hasBalls =
         !view.sphereTiles.itemsOf(tile).empty() || (view.hasMetaballs && !view.metaballs.tiles.itemsOf(tile).empty());
     if (hasBalls) return TileClass::objects;
@@ -41,11 +41,15 @@ ViewBuffers::ViewBuffers(const Gl& gl)
       sphereItems_(gl, GL_R32I),
       tileSpheres_(gl, GL_RGBA32F),
       boxes_(gl, GL_RGBA32F),
+      boxBegins_(gl, GL_R32I),
+      tileBoxes_(gl, GL_RGBA32F),
       lines_(gl, GL_RGBA32F),
       lineBegins_(gl, GL_R32I),
       lineItems_(gl, GL_R32I),
       casters_(gl, GL_RGBA32F),
       casterBegins_(gl, GL_R32I),
+      boxCasters_(gl, GL_RGBA32F),
+      boxCasterBegins_(gl, GL_R32I),
       groundSky_(gl, GL_R32F),
       skyGrid_(gl, GL_R32F),
       tiles_{TextureBuffer(gl, GL_R32I), TextureBuffer(gl, GL_R32I), TextureBuffer(gl, GL_R32I),
@@ -63,7 +67,8 @@ void ViewBuffers::upload(const PreparedView& view) {
     uploadList(tileSpheres_, spheres, "the tiles' lists of spheres");
     uploadTiles(view);
     uploadCasters(view);
-    uploadFlats(view);
+    uploadBoxes(view);
+    uploadLines(view);
     uploadSky(view);
 }
 
@@ -85,14 +90,36 @@ void ViewBuffers::uploadCasters(const PreparedView& view) {
     uploadList(casters_, casters, "the lists of spheres that cast shadows");
 }
 
-void ViewBuffers::uploadFlats(const PreparedView& view) {
+void ViewBuffers::uploadBoxes(const PreparedView& view) {
+    const std::vector<BoxObstacle>& obstacles = view.view->boxObstacles;
+    const glm::vec3 eye = view.frame.eye;
     std::vector<glm::vec4> boxes;
-    for (const BoxObstacle& box : view.view->boxObstacles) {
-        boxes.emplace_back(box.minimum - view.frame.eye, 0.0F);
-        boxes.emplace_back(box.maximum - view.frame.eye, 0.0F);
+    for (const BoxObstacle& box : obstacles) {
+        boxes.emplace_back(box.minimum - eye, 0.0F);
+        boxes.emplace_back(box.maximum - eye, 0.0F);
         boxes.emplace_back(box.color, 0.0F);
     }
     uploadList(boxes_, boxes, "the boxes");
+    // Shaders read a box of a list at once, and its index with it: floats have all integers up to 2^24.
+    std::vector<glm::vec4> listed;
+    listed.reserve(2 * view.boxTiles.items.size());
+    for (const std::uint32_t index : view.boxTiles.items) {
+        listed.emplace_back(obstacles[index].minimum - eye, static_cast<float>(index));
+        listed.emplace_back(obstacles[index].maximum - eye, 0.0F);
+    }
+    uploadList(boxBegins_, view.boxTiles.begin, "the tiles");
+    uploadList(tileBoxes_, listed, "the tiles' lists of boxes");
+    listed.clear();
+    for (std::size_t k = 0; k < view.lightBoxes.boxes.index.size(); ++k) {
+        const BoxObstacle& box = obstacles[view.lightBoxes.boxes.index[k]];
+        listed.emplace_back(box.minimum - eye, view.lightBoxes.boxes.top[k]);
+        listed.emplace_back(box.maximum - eye, 0.0F);
+    }
+    uploadList(boxCasterBegins_, view.lightBoxes.begin, "the cells of the light's grid of boxes");
+    uploadList(boxCasters_, listed, "the lists of boxes that cast shadows");
+}
+
+void ViewBuffers::uploadLines(const PreparedView& view) {
     std::vector<glm::vec4> lines;
     for (const ScreenLine& line : view.lines.lines) {
         lines.emplace_back(line.from, line.to);
@@ -123,11 +150,15 @@ std::vector<TextureBinding> ViewBuffers::bindings() const {
             of("sphereItems", sphereItems_),
             of("tileSpheres", tileSpheres_),
             of("boxes", boxes_),
+            of("boxBegins", boxBegins_),
+            of("tileBoxes", tileBoxes_),
             of("lines", lines_),
             of("lineBegins", lineBegins_),
             of("lineItems", lineItems_),
             of("casters", casters_),
             of("casterBegins", casterBegins_),
+            of("boxCasters", boxCasters_),
+            of("boxCasterBegins", boxCasterBegins_),
             of("groundSky", groundSky_),
             of("skyGrid", skyGrid_)};
 }

@@ -43,12 +43,13 @@ class ViewBuffers {
  private:
     void uploadTiles(const PreparedView& view);
     void uploadCasters(const PreparedView& view);
-    void uploadFlats(const PreparedView& view);
+    void uploadBoxes(const PreparedView& view);
+    void uploadLines(const PreparedView& view);
     void uploadSky(const PreparedView& view);
 
     TextureBuffer spheres_, sphereAttributes_, sphereBegins_, sphereItems_, tileSpheres_;
-    TextureBuffer boxes_, lines_, lineBegins_, lineItems_;
-    TextureBuffer casters_, casterBegins_;
+    TextureBuffer boxes_, boxBegins_, tileBoxes_, lines_, lineBegins_, lineItems_;
+    TextureBuffer casters_, casterBegins_, boxCasters_, boxCasterBegins_;
     TextureBuffer groundSky_, skyGrid_;
     std::array<TextureBuffer, kTileClassCount> tiles_;
     std::array<std::vector<std::int32_t>, kTileClassCount> tileIndices_;

@@ -2,6 +2,8 @@
 // that keep only one thread busy.
 #include "render/prepare/prepared_view.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <tbb/parallel_invoke.h>
@@ -44,6 +46,9 @@ void binForLight(PreparedView& to) {
     const View& view = *to.view;
     const bool castsShadows = view.light.shadows;
     to.lightGrid = castsShadows ? lightGrid(to.light, to.drawn.spheres, view.light.softness) : LightGrid{};
+    to.lightBoxes = castsShadows
+                        ? lightBoxGrid(to.light, to.frame, view.boxObstacles, view.light.softness * to.meanRadius)
+                        : LightBoxGrid{};
     to.depthMap = castsShadows && to.hasMetaballs ? depthMapGrid(to.light, view, to.skin, to.settings.depthMapTexels)
                                                   : DepthMapGrid{};
     if (to.depthMap.empty()) return;
@@ -52,14 +57,22 @@ void binForLight(PreparedView& to) {
 }
 
 void findBoxTiles(PreparedView& to) {
-    to.boxTiles.assign(to.sphereTiles.cellCount(), 0);
-    for (const BoxObstacle& box : to.view->boxObstacles) {
+    float widestLine = 0.0F;
+    for (const ScreenLine& line : to.lines.lines) widestLine = std::max(widestLine, line.width);
+    // Rays through the points of a line that are nearest to a tile's pixels pass up to half the line's width beside the
+    // tile. Two pixels are in the bounds of a box already, of which one is left for the rounding.
+    const int margin = static_cast<int>(std::max(std::ceil(0.5F * widestLine - 1.0F), 0.0F));
+    const auto tileOf = [](int pixel, int count) { return std::clamp(pixel, 0, count - 1) / kTileSize; };
+    std::vector<CellItem> items;
+    for (std::uint32_t k = 0; const BoxObstacle& box : to.view->boxObstacles) {
+        const std::uint32_t index = k++;
         const auto pixels = pixelsTouchedByBox(to.frame, box.minimum, box.maximum);
         if (!pixels) continue;
-        for (int row = pixels->y0 / kTileSize; row <= pixels->y1 / kTileSize; ++row)
-            for (int column = pixels->x0 / kTileSize; column <= pixels->x1 / kTileSize; ++column)
-                to.boxTiles[to.sphereTiles.cellIndex(column, row)] = 1;
+        items.push_back({index,
+                         {tileOf(pixels->x0 - margin, to.frame.width), tileOf(pixels->y0 - margin, to.frame.height),
+                          tileOf(pixels->x1 + margin, to.frame.width), tileOf(pixels->y1 + margin, to.frame.height)}});
     }
+    to.boxTiles = binIntoCells(items, to.sphereTiles.columns, to.sphereTiles.rows);
 }
 
 void findGroundTiles(PreparedView& to) {

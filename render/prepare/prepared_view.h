@@ -12,6 +12,7 @@
 #include "render/prepare/ambient_occlusion.h"
 #include "render/prepare/depth_map_grid.h"
 #include "render/prepare/drawn_spheres.h"
+#include "render/prepare/light_boxes.h"
 #include "render/prepare/light_space.h"
 #include "render/prepare/metaball_scene.h"
 #include "render/prepare/screen_lines.h"
@@ -46,11 +47,12 @@ struct PreparedView {
     MetaballScene lightMetaballs;  ///< the metaballs as the light sees them, for the depth map; without attributes
 
     LineList lines;
-    std::vector<std::uint8_t> boxTiles;  ///< per tile: 1 where a box may be seen
-    std::vector<TileKind> groundTiles;   ///< per tile: what it shows as long as nothing stands before the ground
+    CellLists boxTiles;                 ///< boxes that may be seen in each tile, or that may hide lines of it
+    std::vector<TileKind> groundTiles;  ///< per tile: what it shows as long as nothing stands before the ground
 
     LightBasis light;
     LightGrid lightGrid;              ///< empty unless spheres cast shadows
+    LightBoxGrid lightBoxes;          ///< without boxes unless boxes cast shadows
     bool needsSkyVisibility = false;  ///< whether some term of the shading model needs it
     SkyVisibilityGrid skyGrid;
     SkyVisibilityMap groundSky;

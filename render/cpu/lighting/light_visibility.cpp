@@ -196,6 +196,65 @@ V boxCoverage(const BoxObstacle& box, const Occluders& occluders, const Receiver
     return hn::IfThenElseZero(exit > splat(tolerance), isSoft ? softEdge(ratio) : sharpEdge(ratio));
 }
 
+/// Bits for the boxes first, first + 1, ... of the grid's lists, set if they may cover receivers within these bounds.
+/// @param reachU, reachV  how far the edges of shadows reach beyond the boxes along u and v, m
+std::uint32_t coveringBoxes(const LightBoxes& boxes, std::size_t first, const ReceiverBounds& bounds, V reachU,
+                            V reachV) {
+    const D d;
+    const auto at = [&](const std::vector<float>& values) { return hn::LoadU(d, &values[first]); };
+    const M isNearU = hn::And(bounds.highU + reachU >= at(boxes.lowU), bounds.lowU - reachU <= at(boxes.highU));
+    const M isNearV = hn::And(bounds.highV + reachV >= at(boxes.lowV), bounds.lowV - reachV <= at(boxes.highV));
+    return maskBits(hn::And(hn::And(isNearU, isNearV), at(boxes.top) >= bounds.bottom));
+}
+
+/// Adds the coverage by the boxes of one list, in the order of their indices, to what covers some receivers already,
+/// until that is all of the light.
+V addListedBoxes(const Occluders& occluders, std::size_t list, const Receivers& at, M where, V coverage) {
+    const D d;
+    const LightBoxGrid& grid = *occluders.lightBoxes;
+    const ReceiverBounds bounds(at, where);
+    const V widestPixel = hn::Neg(minOfLanes(hn::Neg(at.pixelWidth), where));
+    const V widest = hn::Max(widestPixel, splat(occluders.softness * occluders.meanRadius));
+    const V reachU = splat(grid.edgeReach.x) * widest;
+    const V reachV = splat(grid.edgeReach.y) * widest;
+    const std::size_t end = grid.begin[list + 1];
+    for (std::size_t first = grid.begin[list]; first < end; first += hn::Lanes(d)) {
+        const std::size_t count = std::min(end - first, hn::Lanes(d));
+        for (std::uint32_t bits = coveringBoxes(grid.boxes, first, bounds, reachU, reachV) & ((1U << count) - 1U);
+             bits != 0; bits &= bits - 1) {
+            const std::size_t k = first + static_cast<std::size_t>(std::countr_zero(bits));
+            coverage = coverage + boxCoverage(occluders.boxes[grid.boxes.index[k]], occluders, at);
+            if (none(hn::And(where, coverage < splat(1.0F)))) return coverage;
+        }
+    }
+    return coverage;
+}
+
+/// Adds the coverage by boxes to what covers the receivers already.
+V addBoxes(const Occluders& occluders, const Receivers& at, V coverage) {
+    const D d;
+    const LightBoxGrid& grid = *occluders.lightBoxes;
+    const V inverse = splat(1.0F / grid.cellSize);
+    const M isNarrow = at.pixelWidth <= splat(grid.widestPixel);
+    const auto cellsAlong = [&](V coordinate, float origin, int count) {
+        return hn::Floor(clamp((coordinate - splat(origin)) * inverse, 0.0F, static_cast<float>(count - 1)));
+    };
+    const VI cell = cellIndex(cellsAlong(at.u, grid.origin.x, grid.columns), cellsAlong(at.v, grid.origin.y, grid.rows),
+                              grid.columns, isNarrow);
+    const VI list =
+        hn::IfThenElse(hn::RebindMask(DI(), isNarrow), cell, splatInt(static_cast<std::int32_t>(grid.listOfAll())));
+    alignas(64) std::array<std::int32_t, kTileSize> lists;
+    storeInt(list, lists.data());
+    for (M left = at.isFacing; !none(left);) {
+        const std::int32_t one = lists[static_cast<std::size_t>(hn::FindFirstTrue(d, left))];
+        const M where = hn::And(left, floatMask(list == splatInt(one)));
+        coverage = hn::IfThenElse(where, addListedBoxes(occluders, static_cast<std::size_t>(one), at, where, coverage),
+                                  coverage);
+        left = hn::AndNot(where, left);
+    }
+    return coverage;
+}
+
 /// Weights of six heights in a row of the depth map, half a texel apart: a quadratic B-spline, three texels wide,
 /// around a point between the third and the fourth height.
 /// @param behind  distance of the point from the third height, in half texels, 0 to 1
@@ -271,7 +330,7 @@ V metaballCoverage(const DepthMap& map, const Occluders& occluders, const Receiv
 V lightVisibilityAt(const Occluders& occluders, const Receivers& at) {
     V coverage = splat(0.0F);
     if (occluders.spheres != nullptr) coverage = coverage + spheresCoverage(*occluders.spheres, at, occluders.softness);
-    for (const BoxObstacle& box : occluders.boxes) coverage = coverage + boxCoverage(box, occluders, at);
+    if (occluders.lightBoxes != nullptr) coverage = addBoxes(occluders, at, coverage);
     if (occluders.metaballs != nullptr) coverage = coverage + metaballCoverage(*occluders.metaballs, occluders, at);
     return hn::IfThenElseZero(at.isFacing, hn::Max(splat(1.0F) - coverage, splat(0.0F)));
 }

@@ -10,6 +10,7 @@
 #include "render/cpu/lighting/shading_points.h"
 #include "render/picture/view.h"
 #include "render/prepare/ambient_occlusion.h"
+#include "render/prepare/light_boxes.h"
 #include "render/prepare/light_space.h"
 
 namespace render {
@@ -20,13 +21,16 @@ struct Occluders {
     glm::vec3 eye{0.0F};  ///< world coordinates, m
     const LightGrid* spheres = nullptr;
     const DepthMap* metaballs = nullptr;
-    std::span<const BoxObstacle> boxes;
+    const LightBoxGrid* lightBoxes = nullptr;
+    std::span<const BoxObstacle> boxes;           ///< in world coordinates; what lightBoxes lists
     float softness = 0.0F;                        ///< softness of the shadows' edges, as in Light
     float meanRadius = 0.0F;                      ///< mean radius of the particles, m
     const SkyVisibilityGrid* sky = nullptr;       ///< sky visibility, null without ambient occlusion
     const SkyVisibilityMap* groundSky = nullptr;  ///< sky visibility of the ground, null without ambient occlusion
 
-    bool isEmpty() const { return spheres == nullptr && metaballs == nullptr && boxes.empty() && sky == nullptr; }
+    bool isEmpty() const {
+        return spheres == nullptr && metaballs == nullptr && lightBoxes == nullptr && sky == nullptr;
+    }
 };
 
 /// How much light and sky reaches each shading point, from 0 to 1.

@@ -60,7 +60,7 @@ LineCoverage lineCoverage(const SolidGeometry& geometry, const LineList& lines, 
             rays.x[pixel] = points[pixel].at.x;
             rays.y[pixel] = points[pixel].at.y;
         }
-        findFlatHits(geometry, {}, rays);
+        findFlatHits(geometry, {true, geometry.boxTiles->itemsOf(tile)}, rays);
         for (std::size_t pixel = 0; pixel < kTilePixels; ++pixel) {
             const LinePoint& nearest = points[pixel];
             if (nearest.coverage <= 0.0F || rays.depth[pixel] < nearest.depth * kNearer) continue;

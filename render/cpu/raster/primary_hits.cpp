@@ -101,13 +101,8 @@ void findFlatHits(const SolidGeometry& geometry, FlatGeometry flats, TileRays& r
         const Ray ray = rayAt(geometry, rays, first);
         NearestHits hits{splat(kFarDepth), splatInt(kHitBackground)};
         if (flats.hasGround && geometry.ground) hits.add(depthOfGround(ray, *geometry.ground), splatInt(kHitGround));
-        if (flats.hasBoxes) {
-            std::int32_t id = kHitBox;
-            for (const BoxObstacle& box : geometry.boxes) {
-                addBox(ray, box, geometry.frame.eye, id, hits);
-                id += 16;
-            }
-        }
+        for (const std::uint32_t box : flats.boxes)
+            addBox(ray, geometry.boxes[box], geometry.frame.eye, kHitBox + 16 * static_cast<std::int32_t>(box), hits);
         store(hits.depth, &rays.depth[first]);
         storeInt(hits.id, &rays.hitId[first]);
     }

@@ -36,7 +36,8 @@ struct SolidGeometry {
     std::span<const Rect> pixels;         ///< bounds of the pixels that each sphere may touch
     const CellLists* tiles = nullptr;     ///< spheres of each tile, front to back
     std::span<const BoxObstacle> boxes;
-    std::optional<float> ground;  ///< height of the ground over the eye, m
+    const CellLists* boxTiles = nullptr;  ///< boxes of each tile
+    std::optional<float> ground;          ///< height of the ground over the eye, m
 };
 
 /// One ray through each pixel of a tile, row by row, and its nearest hit so far.
@@ -50,7 +51,7 @@ struct TileRays {
 /// Which of the ground and the boxes a tile may show.
 struct FlatGeometry {
     bool hasGround = true;
-    bool hasBoxes = true;
+    std::span<const std::uint32_t> boxes;  ///< in rising order
 };
 
 // The functions below give a ray a hit that depends on its own position alone, bit for bit, not on the instruction set.

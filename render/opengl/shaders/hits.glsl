@@ -50,9 +50,10 @@ void meetSlab(REAL origin, REAL direction, float low, float high, int axis, inou
 }
 
 void addBoxes(inout HITS hits, REAL x, REAL y) {
-    for (int k = 0; k < int(counts.y); ++k) {
-        vec3 low = texelFetch(boxes, 3 * k).xyz;
-        vec3 high = texelFetch(boxes, 3 * k + 1).xyz;
+    int end = texelFetch(boxBegins, tile + 1).x;
+    for (int k = texelFetch(boxBegins, tile).x; k < end; ++k) {
+        vec4 low = texelFetch(tileBoxes, 2 * k);
+        vec3 high = texelFetch(tileBoxes, 2 * k + 1).xyz;
         REAL entry = REAL(-kFarDepth);
         REAL exit = REAL(kFarDepth);
         REAL gap = REAL(kFarDepth);
@@ -68,7 +69,7 @@ void addBoxes(inout HITS hits, REAL x, REAL y) {
         }
         BOOLEAN isHit = both(lessEqual(entry, exit), lessEqual(REAL(0.0), exit));
         INTEGER face = choose(lessEqual(REAL(0.0), entry), entered, nearest + INTEGER(8));
-        addHit(hits, choose(isHit, max(entry, REAL(0.0)), REAL(kFarDepth)), face + INTEGER(kHitBox + 16 * k));
+        addHit(hits, choose(isHit, max(entry, REAL(0.0)), REAL(kFarDepth)), face + INTEGER(kHitBox + 16 * int(low.w)));
     }
 }
 #endif

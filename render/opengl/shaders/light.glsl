@@ -46,14 +46,22 @@ float outlineGap(vec2 entered, vec2 left, float inverseA, float inverseB) {
     return (left.y - entered.x) / sqrt(inverseA * inverseA + inverseB * inverseB);
 }
 
-// Coverage by boxes, whose outlines seen from the light are hexagons (light_visibility.cpp derives the distance).
-float boxCoverage(vec3 position, float pixelWidth) {
+// Coverage by the boxes of one cell of their grid, whose outlines seen from the light are hexagons (light_visibility.cpp
+// derives the distance).
+float boxCoverage(vec3 position, vec3 at, float pixelWidth, bool isFacing) {
+    vec2 cell = clamp(floor((at.xy - boxCells.xy) * boxCells.z), vec2(0.0), lightCellCount.zw - 1.0);
+    bool isNarrow = pixelWidth <= boxCells.w;
+    int list = int(isNarrow ? cell.y * lightCellCount.z + cell.x : lightCellCount.z * lightCellCount.w);
+    int k = isFacing ? texelFetch(boxCasterBegins, list).x : 0;
+    int end = isFacing ? texelFetch(boxCasterBegins, list + 1).x : 0;
     vec3 direction = mix(vec3(1.0e-6), toLight.xyz, greaterThan(abs(toLight.xyz), vec3(1.0e-6)));
     vec3 inverse = 1.0 / direction;
     float coverage = 0.0;
-    for (int k = 0; k < int(counts.y); ++k) {
-        vec3 low = texelFetch(boxes, 3 * k).xyz;
-        vec3 high = texelFetch(boxes, 3 * k + 1).xyz;
+    for (; k < end && coverage < 1.0; ++k) {
+        vec4 lowAndTop = texelFetch(boxCasters, 2 * k);
+        if (lowAndTop.w < at.z) continue;
+        vec3 low = lowAndTop.xyz;
+        vec3 high = texelFetch(boxCasters, 2 * k + 1).xyz;
         vec3 first = (low - position) * inverse;
         vec3 second = (high - position) * inverse;
         vec3 near = min(first, second);
@@ -121,12 +129,14 @@ float lightVisibility(vec3 position, vec3 normal, float depth) {
     bool isFacing = dot(normal, toLight.xyz) > 0.0;
     float pixelWidth = pixelWidthAt(depth);
     float coverage = 0.0;
-#ifdef SPHERE_SHADOWS
+#if defined(SPHERE_SHADOWS) || defined(BOX_SHADOWS)
     vec3 at = vec3(dot(position, lightU.xyz), dot(position, lightV.xyz), dot(position, toLight.xyz));
+#endif
+#ifdef SPHERE_SHADOWS
     coverage += sphereCoverage(at, pixelWidth, isFacing);
 #endif
 #ifdef BOX_SHADOWS
-    coverage += boxCoverage(position, pixelWidth);
+    coverage += boxCoverage(position, at, pixelWidth, isFacing);
 #endif
 #ifdef METABALL_SHADOWS
     coverage += metaballCoverage(position, normal);

@@ -10,11 +10,15 @@ uniform isamplerBuffer sphereBegins;     // tile t lists the entries begins[t] .
 uniform isamplerBuffer sphereItems;
 uniform samplerBuffer tileSpheres;       // the sphere of each entry of the items
 uniform samplerBuffer boxes;             // three texels a box: low corner, high corner, color
+uniform isamplerBuffer boxBegins;
+uniform samplerBuffer tileBoxes;         // two texels for each box of each tile: low corner and index, high corner
 uniform samplerBuffer lines;             // three texels a line: both ends (pixels), their depths and the width, color
 uniform isamplerBuffer lineBegins;
 uniform isamplerBuffer lineItems;
 uniform samplerBuffer casters;           // spheres that cast shadows: u, v, height, radius (m)
 uniform isamplerBuffer casterBegins;
+uniform samplerBuffer boxCasters;        // two texels a box: low corner and greatest height toward the light, high corner
+uniform isamplerBuffer boxCasterBegins;  // the last list has all boxes
 uniform samplerBuffer groundSky;
 uniform samplerBuffer skyGrid;
 

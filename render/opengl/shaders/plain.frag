@@ -1,9 +1,10 @@
 // Tiles that show nothing but the background or nothing but ground.
 #include "frame.glsl"
 
-uniform samplerBuffer boxes;
 uniform samplerBuffer casters;
 uniform isamplerBuffer casterBegins;
+uniform samplerBuffer boxCasters;
+uniform isamplerBuffer boxCasterBegins;
 uniform samplerBuffer groundSky;
 
 #include "packing.glsl"

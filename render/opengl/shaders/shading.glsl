@@ -29,7 +29,7 @@ vec3 fresnel(vec3 albedo, float cosine) {
 vec3 highlight(Point at) {
     vec3 halfway = normalize(toLight.xyz + at.toEye);
     float peak = max(dot(at.normal, halfway), 0.0);
-    for (int squaring = 0; squaring < int(counts.z); ++squaring) peak *= peak;
+    for (int squaring = 0; squaring < int(counts.y); ++squaring) peak *= peak;
     float share = dot(at.normal, toLight.xyz) > 0.0 ? at.isParticle * at.light : 0.0;
     return lightColor.rgb * fresnel(at.albedo, dot(at.toEye, halfway)) * (body.w * peak * share);
 }

@@ -1,0 +1,51 @@
+// Boxes that cast shadows, sorted into the cells of a grid on the light's plane, so that a shaded point tests only
+// those whose shadow may fall on it. All positions are relative to the eye. Called by the preparation of a view.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "render/picture/camera_frame.h"
+#include "render/picture/view.h"
+#include "render/prepare/light_space.h"
+
+namespace render {
+
+/// Boxes in light space, component by component as vector loads need them.
+struct LightBoxes {
+    std::vector<std::uint32_t> index;             ///< index of the box
+    std::vector<float> lowU, highU, lowV, highV;  ///< bounds on the light's plane, m; a little wider for the rounding
+    std::vector<float> top;                       ///< greatest height, m; a little more for the rounding
+};
+
+/// Boxes that cast shadows, listed for the cells of a grid on the light's plane. A point beyond the grid belongs to the
+/// nearest cell, so that a few boxes far away from the others do not make its cells larger.
+struct LightBoxGrid {
+    glm::vec2 origin{0.0F};  ///< u and v of the first cell's corner, m
+    float cellSize = 1.0F;   ///< side of a cell, m
+    int columns = 1;
+    int rows = 1;
+    /// The list of a cell has all boxes whose shadows reach into it where a pixel is no wider than this, m. Where
+    /// pixels are wider, so are the edges of shadows: points there use the list of all boxes.
+    float widestPixel = 0.0F;
+    /// How far an edge reaches beyond the bounds of its box along u and v, in widths of the edge.
+    glm::vec2 edgeReach{0.0F};
+    /// Cell c lists the boxes begin[c] ... begin[c + 1] - 1 in the order of their indices. Cells are row by row; the
+    /// last list has all boxes.
+    std::vector<std::uint32_t> begin{0, 0, 0};
+    /// One list for each cell, one after another. At least as many unused entries as a vector has lanes follow.
+    LightBoxes boxes;
+
+    std::size_t listOfAll() const { return begin.size() - 2; }
+};
+
+/// Lists the boxes that cast shadows.
+/// @param boxes      in world coordinates
+/// @param softWidth  greatest width of the soft edge of a box's shadow, m
+LightBoxGrid lightBoxGrid(const LightBasis& basis, const CameraFrame& frame, std::span<const BoxObstacle> boxes,
+                          float softWidth);
+
+}  // namespace render
