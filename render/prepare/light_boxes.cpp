@@ -48,8 +48,16 @@ std::vector<LightBox> lightBoxes(const LightBasis& basis, glm::vec3 eye, std::sp
     return found;
 }
 
-/// The part of an axis of the light's plane that holds most boxes: the middle half of their centers, grown by twice its
-/// length on both sides but not beyond the boxes. All of evenly spread boxes lie in it, and strays do not.
+/// The value at a share of the way through the sorted values. Quantiles are not moved by a few boxes that are vast or
+/// far away from the others.
+float quantile(std::vector<float>& values, double share) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+/// The part of an axis of the light's plane that has most boxes: the middle half of their centers, grown by twice its
+/// length on both sides but not beyond the boxes. All of evenly spread boxes lie in it.
 std::pair<float, float> gridRange(std::span<const LightBox> boxes, int axis) {
     std::vector<float> centers;
     centers.reserve(boxes.size());
@@ -59,35 +67,29 @@ std::pair<float, float> gridRange(std::span<const LightBox> boxes, int axis) {
         all.low = std::min(all.low, box.low[axis]);
         all.high = std::max(all.high, box.high[axis]);
     }
-    const auto quantile = [&](std::size_t quarter) {
-        const auto at = centers.begin() + static_cast<std::ptrdiff_t>(quarter * (centers.size() - 1) / 4);
-        std::nth_element(centers.begin(), at, centers.end());
-        return *at;
-    };
-    const float first = quantile(1);
-    const float third = quantile(3);
+    const float first = quantile(centers, 0.25);
+    const float third = quantile(centers, 0.75);
     const float more = 2.0F * (third - first);
     return {std::max(first - more, all.low), std::min(third + more, all.high)};
 }
 
-/// Width of a pixel at the mean depth of the boxes, m.
-float meanPixelWidth(const CameraFrame& frame, std::span<const BoxObstacle> boxes) {
+/// Width of a pixel at the median depth of the boxes, m.
+float medianPixelWidth(const CameraFrame& frame, std::span<const BoxObstacle> boxes) {
     if (!frame.perspective) return frame.pixelWidth();
-    double sum = 0.0;
+    std::vector<float> depths;
+    depths.reserve(boxes.size());
     for (const BoxObstacle& box : boxes)
-        sum += double(std::max(frame.toView(0.5F * (box.minimum + box.maximum)).z, 0.0F));
-    return frame.pixelWidth() * static_cast<float>(sum / static_cast<double>(boxes.size()));
+        depths.push_back(std::max(frame.toView(0.5F * box.minimum + 0.5F * box.maximum).z, 0.0F));
+    return frame.pixelWidth() * quantile(depths, 0.5);
 }
 
-/// The median extent of the boxes on the light's plane, m: a single vast floor does not make the cells as large.
+/// The median extent of the boxes on the light's plane, m.
 float medianExtent(std::span<const LightBox> boxes) {
     std::vector<float> extents;
     extents.reserve(boxes.size());
     for (const LightBox& box : boxes)
         extents.push_back(0.5F * (box.high.x - box.low.x) + 0.5F * (box.high.y - box.low.y));
-    const auto middle = extents.begin() + static_cast<std::ptrdiff_t>(extents.size() / 2);
-    std::nth_element(extents.begin(), middle, extents.end());
-    return *middle;
+    return quantile(extents, 0.5);
 }
 
 /// Column or row of a coordinate; of the nearest cell for one beyond the grid.
@@ -166,8 +168,8 @@ LightBoxGrid lightBoxGrid(const LightBasis& basis, const CameraFrame& frame, std
         return 0.55F * (std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z));
     };
     grid.edgeReach = {reachAlong(basis.u), reachAlong(basis.v)};
-    // Cells are wide enough for the pixels of boxes at twice the mean depth.
-    const float leastCell = 2.0F * kPixelsPerCell * meanPixelWidth(frame, boxes);
+    // Cells are wide enough for the pixels of boxes at twice the median depth.
+    const float leastCell = 2.0F * kPixelsPerCell * medianPixelWidth(frame, boxes);
     const std::vector<CellItem> items = fitToBoxes(inLight, leastCell, softWidth, grid);
     CellLists lists = listBoxes(items, grid);
     grid.begin = std::move(lists.begin);
