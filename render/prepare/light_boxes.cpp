@@ -163,6 +163,13 @@ LightBoxGrid lightBoxGrid(const LightBasis& basis, const CameraFrame& frame, std
     LightBoxGrid grid;
     if (boxes.empty()) return grid;
     const std::vector<LightBox> inLight = lightBoxes(basis, frame.eye, boxes);
+    for (int axis = 0; axis < 3; ++axis) {
+        const float along = basis.toLight[axis];
+        grid.inverse[axis] = 1.0F / (std::abs(along) > 1.0e-6F ? along : 1.0e-6F);
+    }
+    const auto scaleOf = [](float a, float b) { return 1.0F / std::sqrt(a * a + b * b); };
+    grid.gapScale = {scaleOf(grid.inverse.x, grid.inverse.y), scaleOf(grid.inverse.y, grid.inverse.z),
+                     scaleOf(grid.inverse.z, grid.inverse.x)};
     // Half the width of the edge, and a tenth of that for the rounding.
     const auto reachAlong = [](glm::vec3 axis) {
         return 0.55F * (std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z));

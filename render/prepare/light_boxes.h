@@ -31,6 +31,10 @@ struct LightBoxGrid {
     /// The list of a cell has all boxes whose shadows reach into it where a pixel is no wider than this, m. Where
     /// pixels are wider, so are the edges of shadows: points there use the list of all boxes.
     float widestPixel = 0.0F;
+    /// 1 / components of the direction toward the light; where one is nearly 0, of 1e-6 instead.
+    glm::vec3 inverse{1.0F};
+    /// 1 / lengths of the gradients of light_visibility.cpp for the axes x and y, y and z, z and x.
+    glm::vec3 gapScale{1.0F};
     /// How far an edge reaches beyond the bounds of its box along u and v, in widths of the edge.
     glm::vec2 edgeReach{0.0F};
     /// Cell c lists the boxes begin[c] ... begin[c + 1] - 1 in the order of their indices. Cells are row by row; the

@@ -154,8 +154,8 @@ struct Slab {
 };
 
 /// The gap between entering one pair of faces and leaving another, as a distance from the outline that the two share.
-V outlineGap(const Slab& entered, const Slab& left, float inverseA, float inverseB) {
-    return (left.far - entered.near) * splat(1.0F / std::sqrt(inverseA * inverseA + inverseB * inverseB));
+V outlineGap(const Slab& entered, const Slab& left, float scale) {
+    return (left.far - entered.near) * splat(scale);
 }
 
 /// Coverage by a box, which seen from the light is a convex hexagon. Let p be the point, l the direction to the light,
@@ -164,10 +164,8 @@ V outlineGap(const Slab& entered, const Slab& left, float inverseA, float invers
 /// the hexagon; its gradient in p is e_i/l_i - e_j/l_j, of length sqrt(1/l_i^2 + 1/l_j^2). The least gap over that
 /// length is the signed distance to the outline.
 V boxCoverage(const BoxObstacle& box, const Occluders& occluders, const Receivers& at) {
-    const glm::vec3 toLight = occluders.light.toLight;
-    glm::vec3 inverse;
-    for (int axis = 0; axis < 3; ++axis)
-        inverse[axis] = 1.0F / (std::abs(toLight[axis]) > 1.0e-6F ? toLight[axis] : 1.0e-6F);
+    const glm::vec3 inverse = occluders.lightBoxes->inverse;
+    const glm::vec3 scale = occluders.lightBoxes->gapScale;
     const glm::vec3 low = box.minimum - occluders.eye;
     const glm::vec3 high = box.maximum - occluders.eye;
     const auto slab = [&](V position, int axis) {
@@ -178,12 +176,12 @@ V boxCoverage(const BoxObstacle& box, const Occluders& occluders, const Receiver
     const Slab x = slab(at.position.x, 0);
     const Slab y = slab(at.position.y, 1);
     const Slab z = slab(at.position.z, 2);
-    V inside = outlineGap(x, y, inverse.x, inverse.y);
-    inside = hn::Min(inside, outlineGap(y, z, inverse.y, inverse.z));
-    inside = hn::Min(inside, outlineGap(z, x, inverse.z, inverse.x));
-    inside = hn::Min(inside, outlineGap(x, z, inverse.x, inverse.z));
-    inside = hn::Min(inside, outlineGap(y, x, inverse.y, inverse.x));
-    inside = hn::Min(inside, outlineGap(z, y, inverse.z, inverse.y));
+    V inside = outlineGap(x, y, scale.x);
+    inside = hn::Min(inside, outlineGap(y, z, scale.y));
+    inside = hn::Min(inside, outlineGap(z, x, scale.z));
+    inside = hn::Min(inside, outlineGap(x, z, scale.z));
+    inside = hn::Min(inside, outlineGap(y, x, scale.x));
+    inside = hn::Min(inside, outlineGap(z, y, scale.y));
     const V exit = hn::Min(x.far, hn::Min(y.far, z.far));
     const float tolerance = 1.0e-4F * length(box.maximum - box.minimum);
     const bool isSoft = occluders.softness > 0.0F;
@@ -234,6 +232,11 @@ V addListedBoxes(const Occluders& occluders, std::size_t list, const Receivers& 
 V addBoxes(const Occluders& occluders, const Receivers& at, V coverage) {
     const D d;
     const LightBoxGrid& grid = *occluders.lightBoxes;
+    constexpr std::size_t kFew = 2;  // boxes that take less time than finding which of them are near; measured
+    if (occluders.boxes.size() <= kFew) {
+        for (const BoxObstacle& box : occluders.boxes) coverage = coverage + boxCoverage(box, occluders, at);
+        return coverage;
+    }
     const V inverse = splat(1.0F / grid.cellSize);
     const M isNarrow = at.pixelWidth <= splat(grid.widestPixel);
     const auto cellsAlong = [&](V coordinate, float origin, int count) {
