@@ -98,8 +98,8 @@ Occluders CpuRenderer::occludersOf(const PreparedView& view) const {
 /// The job points into the prepared view, the sampling and this object, which have to outlive it.
 PictureJob CpuRenderer::pictureJob(const PreparedView& view, const Sampling& sampling) const {
     const std::vector<BoxObstacle>& boxes = view.view->boxObstacles;
-    const SolidGeometry solids{view.frame, view.viewSpheres, view.spherePixels,  &view.sphereTiles,
-                               boxes,      &view.boxTiles,   view.groundHeight()};
+    const SolidGeometry solids{view.frame, view.viewSpheres, view.spherePixels, &view.sphereTiles,
+                               boxes,      view.boxFronts,   &view.boxTiles,    view.groundHeight()};
     const ShadingGeometry geometry{view.frame,
                                    view.drawn.spheres,
                                    view.sphereAttributes,

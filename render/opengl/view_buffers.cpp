@@ -105,7 +105,7 @@ void ViewBuffers::uploadBoxes(const PreparedView& view) {
     listed.reserve(2 * view.boxTiles.items.size());
     for (const std::uint32_t index : view.boxTiles.items) {
         listed.emplace_back(obstacles[index].minimum - eye, static_cast<float>(index));
-        listed.emplace_back(obstacles[index].maximum - eye, 0.0F);
+        listed.emplace_back(obstacles[index].maximum - eye, view.boxFronts[index]);
     }
     uploadList(boxBegins_, view.boxTiles.begin, "the tiles");
     uploadList(tileBoxes_, listed, "the tiles' lists of boxes");

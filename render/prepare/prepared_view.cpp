@@ -56,7 +56,18 @@ void binForLight(PreparedView& to) {
         lightFrame(to.light, to.depthMap, view.camera.eye, to.settings.depthMapRaysPerTexel), view, to.skin);
 }
 
+/// A view depth that no point of a box is before, however it is rounded, m.
+float frontOf(const CameraFrame& frame, const BoxObstacle& box) {
+    const glm::vec3 half = 0.5F * (box.maximum - box.minimum);
+    const float middle = frame.toView(box.minimum + half).z;
+    const float slack = 1.0e-5F * (length(box.minimum - frame.eye) + length(box.maximum - frame.eye));
+    return middle - dot(abs(frame.forward), half) - slack;
+}
+
 void findBoxTiles(PreparedView& to) {
+    const std::vector<BoxObstacle>& boxes = to.view->boxObstacles;
+    to.boxFronts.clear();
+    for (const BoxObstacle& box : boxes) to.boxFronts.push_back(frontOf(to.frame, box));
     float widestLine = 0.0F;
     for (const ScreenLine& line : to.lines.lines) widestLine = std::max(widestLine, line.width);
     // Rays through the points of a line that are nearest to a tile's pixels pass up to half the line's width beside the
@@ -64,9 +75,8 @@ void findBoxTiles(PreparedView& to) {
     const int margin = static_cast<int>(std::max(std::ceil(0.5F * widestLine - 1.0F), 0.0F));
     const auto tileOf = [](int pixel, int count) { return std::clamp(pixel, 0, count - 1) / kTileSize; };
     std::vector<CellItem> items;
-    for (std::uint32_t k = 0; const BoxObstacle& box : to.view->boxObstacles) {
-        const std::uint32_t index = k++;
-        const auto pixels = pixelsTouchedByBox(to.frame, box.minimum, box.maximum);
+    for (const std::uint32_t index : indicesByKey(to.boxFronts)) {
+        const auto pixels = pixelsTouchedByBox(to.frame, boxes[index].minimum, boxes[index].maximum);
         if (!pixels) continue;
         items.push_back({index,
                          {tileOf(pixels->x0 - margin, to.frame.width), tileOf(pixels->y0 - margin, to.frame.height),

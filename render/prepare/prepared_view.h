@@ -47,7 +47,8 @@ struct PreparedView {
     MetaballScene lightMetaballs;  ///< the metaballs as the light sees them, for the depth map; without attributes
 
     LineList lines;
-    CellLists boxTiles;                 ///< boxes that may be seen in each tile, or that may hide lines of it
+    std::vector<float> boxFronts;       ///< view depths that no point of a box is before, m
+    CellLists boxTiles;                 ///< boxes that a tile or a line in it may show, front to back
     std::vector<TileKind> groundTiles;  ///< per tile: what it shows as long as nothing stands before the ground
 
     LightBasis light;

@@ -1,7 +1,7 @@
 // Exact intersections with Highway, one ray per lane; this file is compiled once per instruction set.
 //
 // Spheres and boxes are solid: a ray that starts inside one hits it at depth 0. Of two hits at the same depth the one
-// that was found first counts.
+// with the lesser id counts if they are of the ground and boxes, and otherwise the one that was found first.
 #include "render/cpu/raster/primary_hits.h"
 
 #include <algorithm>
@@ -22,8 +22,16 @@ struct NearestHits {
     V depth;
     VI id;
 
-    void add(V newDepth, VI newId) {
-        const M isNearer = newDepth < depth;
+    void add(V newDepth, VI newId) { replace(newDepth < depth, newDepth, newId); }
+
+    /// Adds hits that may be as near as others, in any order.
+    void addInAnyOrder(V newDepth, VI newId) {
+        const M isLess = hn::RebindMask(D(), newId < id);
+        replace(hn::Or(newDepth < depth, hn::And(newDepth == depth, isLess)), newDepth, newId);
+    }
+
+ private:
+    void replace(M isNearer, V newDepth, VI newId) {
         depth = hn::IfThenElse(isNearer, newDepth, depth);
         id = hn::IfThenElse(hn::RebindMask(DI(), isNearer), newId, id);
     }
@@ -92,7 +100,7 @@ void addBox(const Ray& ray, const BoxObstacle& box, glm::vec3 eye, std::int32_t 
     const V nearest = minOf(gapX, gapY, hn::Min(z.toLow, z.toHigh));
     const VI around = ofAxis(nearest, gapX, gapY, x.nearest, y.nearest, z.nearest) + splatInt(8);
     const VI face = hn::IfThenElse(hn::RebindMask(DI(), entry >= zero), entered, around);
-    hits.add(hn::IfThenElse(isHit, hn::Max(entry, zero), splat(kFarDepth)), face + splatInt(id));
+    hits.addInAnyOrder(hn::IfThenElse(isHit, hn::Max(entry, zero), splat(kFarDepth)), face + splatInt(id));
 }
 
 void findFlatHits(const SolidGeometry& geometry, FlatGeometry flats, TileRays& rays) {
@@ -101,8 +109,11 @@ void findFlatHits(const SolidGeometry& geometry, FlatGeometry flats, TileRays& r
         const Ray ray = rayAt(geometry, rays, first);
         NearestHits hits{splat(kFarDepth), splatInt(kHitBackground)};
         if (flats.hasGround && geometry.ground) hits.add(depthOfGround(ray, *geometry.ground), splatInt(kHitGround));
-        for (const std::uint32_t box : flats.boxes)
+        for (const std::uint32_t box : flats.boxes) {
+            // All later boxes are behind what has been hit.
+            if (hn::AllTrue(d, hits.depth < splat(geometry.boxFronts[box]))) break;
             addBox(ray, geometry.boxes[box], geometry.frame.eye, kHitBox + 16 * static_cast<std::int32_t>(box), hits);
+        }
         store(hits.depth, &rays.depth[first]);
         storeInt(hits.id, &rays.hitId[first]);
     }

@@ -36,7 +36,8 @@ struct SolidGeometry {
     std::span<const Rect> pixels;         ///< bounds of the pixels that each sphere may touch
     const CellLists* tiles = nullptr;     ///< spheres of each tile, front to back
     std::span<const BoxObstacle> boxes;
-    const CellLists* boxTiles = nullptr;  ///< boxes of each tile
+    std::span<const float> boxFronts;     ///< view depths that no point of a box is before, m
+    const CellLists* boxTiles = nullptr;  ///< boxes of each tile, front to back
     std::optional<float> ground;          ///< height of the ground over the eye, m
 };
 
@@ -51,7 +52,7 @@ struct TileRays {
 /// Which of the ground and the boxes a tile may show.
 struct FlatGeometry {
     bool hasGround = true;
-    std::span<const std::uint32_t> boxes;  ///< in rising order
+    std::span<const std::uint32_t> boxes;  ///< front to back
 };
 
 // The functions below give a ray a hit that depends on its own position alone, bit for bit, not on the instruction set.

@@ -49,11 +49,13 @@ void meetSlab(REAL origin, REAL direction, float low, float high, int axis, inou
     gap = min(gap, least);
 }
 
+// The boxes of a tile, which are listed front to back, until all later ones are behind what was hit.
 void addBoxes(inout HITS hits, REAL x, REAL y) {
     int end = texelFetch(boxBegins, tile + 1).x;
     for (int k = texelFetch(boxBegins, tile).x; k < end; ++k) {
         vec4 low = texelFetch(tileBoxes, 2 * k);
-        vec3 high = texelFetch(tileBoxes, 2 * k + 1).xyz;
+        vec4 high = texelFetch(tileBoxes, 2 * k + 1);
+        if (high.w > largest(hits.depth)) break;
         REAL entry = REAL(-kFarDepth);
         REAL exit = REAL(kFarDepth);
         REAL gap = REAL(kFarDepth);
@@ -69,7 +71,12 @@ void addBoxes(inout HITS hits, REAL x, REAL y) {
         }
         BOOLEAN isHit = both(lessEqual(entry, exit), lessEqual(REAL(0.0), exit));
         INTEGER face = choose(lessEqual(REAL(0.0), entry), entered, nearest + INTEGER(8));
-        addHit(hits, choose(isHit, max(entry, REAL(0.0)), REAL(kFarDepth)), face + INTEGER(kHitBox + 16 * int(low.w)));
+        REAL depth = choose(isHit, max(entry, REAL(0.0)), REAL(kFarDepth));
+        INTEGER id = face + INTEGER(kHitBox + 16 * int(low.w));
+        // Of two boxes at the same depth the one with the lesser index counts.
+        BOOLEAN isNearer = either(less(depth, hits.depth), both(lessEqual(depth, hits.depth), less(id, hits.id)));
+        hits.depth = choose(isNearer, depth, hits.depth);
+        hits.id = choose(isNearer, id, hits.id);
     }
 }
 #endif
