@@ -21,6 +21,7 @@ void addLight(const PreparedView& prepared, TileClass kind, Defines& defines) {
     const bool byBoxes = castsShadows && !view.boxObstacles.empty();
     addIf(bySpheres, "SPHERE_SHADOWS", defines);
     addIf(byBoxes, "BOX_SHADOWS", defines);
+    addIf(byBoxes && !prepared.lightBoxes.isFew(), "BOX_CELLS", defines);
     const bool byMetaballs = castsShadows && !prepared.depthMap.empty();
     addIf(byMetaballs, "METABALL_SHADOWS", defines);
     addIf(bySpheres || byBoxes || byMetaballs, "SHADOWS", defines);

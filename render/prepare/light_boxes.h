@@ -43,6 +43,8 @@ struct LightBoxGrid {
     /// One list for each cell, one after another. At least as many unused entries as a vector has lanes follow.
     LightBoxes boxes;
 
+    /// Whether there are so few boxes that testing all takes less time than finding out which are near. Measured.
+    bool isFew() const { return begin.back() - begin[listOfAll()] <= 2; }
     std::size_t listOfAll() const { return begin.size() - 2; }
 };
 

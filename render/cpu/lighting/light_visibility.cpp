@@ -232,8 +232,7 @@ V addListedBoxes(const Occluders& occluders, std::size_t list, const Receivers& 
 V addBoxes(const Occluders& occluders, const Receivers& at, V coverage) {
     const D d;
     const LightBoxGrid& grid = *occluders.lightBoxes;
-    constexpr std::size_t kFew = 2;  // boxes that take less time than finding which of them are near; measured
-    if (occluders.boxes.size() <= kFew) {
+    if (grid.isFew()) {
         for (const BoxObstacle& box : occluders.boxes) coverage = coverage + boxCoverage(box, occluders, at);
         return coverage;
     }

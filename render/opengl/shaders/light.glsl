@@ -46,20 +46,32 @@ float outlineGap(vec2 entered, vec2 left, float inverseA, float inverseB) {
     return (left.y - entered.x) / sqrt(inverseA * inverseA + inverseB * inverseB);
 }
 
-// Coverage by the boxes of one cell of their grid, whose outlines seen from the light are hexagons (light_visibility.cpp
-// derives the distance).
-float boxCoverage(vec3 position, vec3 at, float pixelWidth, bool isFacing) {
-    vec2 cell = clamp(floor((at.xy - boxCells.xy) * boxCells.z), vec2(0.0), lightCellCount.zw - 1.0);
+#ifdef BOX_CELLS
+// The first entry and the end of the list of boxes whose shadows may fall on a point.
+ivec2 boxList(vec2 at, float pixelWidth) {
+    vec2 cell = clamp(floor((at - boxCells.xy) * boxCells.z), vec2(0.0), lightCellCount.zw - 1.0);
     bool isNarrow = pixelWidth <= boxCells.w;
     int list = int(isNarrow ? cell.y * lightCellCount.z + cell.x : lightCellCount.z * lightCellCount.w);
-    int k = isFacing ? texelFetch(boxCasterBegins, list).x : 0;
-    int end = isFacing ? texelFetch(boxCasterBegins, list + 1).x : 0;
+    return ivec2(texelFetch(boxCasterBegins, list).x, texelFetch(boxCasterBegins, list + 1).x);
+}
+#endif
+
+// Coverage by boxes, whose outlines seen from the light are hexagons (light_visibility.cpp derives the distance).
+float boxCoverage(vec3 position, vec3 at, float pixelWidth, bool isFacing) {
+#ifdef BOX_CELLS
+    ivec2 list = boxList(at.xy, pixelWidth);
+#else
+    ivec2 list = ivec2(0, int(counts.z));
+#endif
+    int end = isFacing ? list.y : 0;
     vec3 direction = mix(vec3(1.0e-6), toLight.xyz, greaterThan(abs(toLight.xyz), vec3(1.0e-6)));
     vec3 inverse = 1.0 / direction;
     float coverage = 0.0;
-    for (; k < end && coverage < 1.0; ++k) {
+    for (int k = list.x; k < end && coverage < 1.0; ++k) {
         vec4 lowAndTop = texelFetch(boxCasters, 2 * k);
+#ifdef BOX_CELLS
         if (lowAndTop.w < at.z) continue;
+#endif
         vec3 low = lowAndTop.xyz;
         vec3 high = texelFetch(boxCasters, 2 * k + 1).xyz;
         vec3 first = (low - position) * inverse;
