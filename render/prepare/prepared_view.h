@@ -12,7 +12,6 @@
 #include "render/prepare/ambient_occlusion.h"
 #include "render/prepare/depth_map_grid.h"
 #include "render/prepare/drawn_spheres.h"
-#include "render/prepare/light_boxes.h"
 #include "render/prepare/light_space.h"
 #include "render/prepare/metaball_scene.h"
 #include "render/prepare/screen_lines.h"

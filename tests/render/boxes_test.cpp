@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "render/prepare/light_boxes.h"
+#include "render/prepare/light_space.h"
 #include "tests/render/pictures.h"
 
 using namespace pictures;

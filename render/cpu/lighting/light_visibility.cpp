@@ -8,13 +8,14 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/cpu/lighting/light_visibility.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "render/cpu/lighting/box_shadows-inl.h"
+#include "render/cpu/lighting/receivers-inl.h"
 #include "render/cpu/lighting/simd_loads-inl.h"
 #include "render/prepare/simd_occlusion-inl.h"
 #include "render/prepare/simd_rays-inl.h"
@@ -22,25 +23,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
-
-/// A vector of points that receive light.
-struct Receivers {
-    V u, v, height;  // position in light space, m
-    Vec3 position, normal;
-    V pixelWidth;  // width of a pixel at the point's depth, m
-    M isFacing;    // whether the surface is turned to the light
-};
-
-/// Coverage by a sharp edge that is smoothed over the width of a pixel. @param x  distance inside the edge, pixels
-V sharpEdge(V x) {
-    return clamp(x + splat(0.5F), 0.0F, 1.0F);
-}
-
-/// The transition across the edge of a shadow from 0 to 1: edge(x) of shading_model.h.
-V softEdge(V x) {
-    const V t = sharpEdge(x);
-    return t * t * (splat(3.0F) - (t + t));
-}
 
 /// How much one sphere covers of a strip around each ray to the light, as wide as a pixel or as the soft edge.
 /// @param square  squared distance of the sphere's center from the ray, m^2
@@ -58,18 +40,6 @@ V sphereCoverage(float height, float radius, const Receivers& at, V square, floa
     edge = hn::Max(edge, splat(softness) * clamp(half, 0.0F, radius));
     return hn::IfThenElseZero(isAbove, softEdge(inside / edge));
 }
-
-/// Bounds of some receivers on the light's plane, and the lowest of their heights.
-struct ReceiverBounds {
-    V lowU, highU, lowV, highV, bottom;
-
-    ReceiverBounds(const Receivers& at, M where)
-        : lowU(minOfLanes(at.u, where)),
-          highU(hn::Neg(minOfLanes(hn::Neg(at.u), where))),
-          lowV(minOfLanes(at.v, where)),
-          highV(hn::Neg(minOfLanes(hn::Neg(at.v), where))),
-          bottom(minOfLanes(at.height, where)) {}
-};
 
 /// A bit for each of the grid's spheres first, first + 1, ..., set if it may cover receivers within these bounds.
 std::uint32_t coveringSpheres(const LightSpheres& spheres, std::size_t first, const ReceiverBounds& bounds) {
@@ -114,19 +84,6 @@ V cellCoverage(const LightGrid& grid, std::size_t cell, const Receivers& at, M w
     return coverage;
 }
 
-/// Mask of the points whose column lies in [low, columns) and whose row lies in [low, rows).
-M isWithin(V column, V row, float low, int columns, int rows) {
-    const V least = splat(low);
-    return hn::And(hn::And(column >= least, column < splat(static_cast<float>(columns))),
-                   hn::And(row >= least, row < splat(static_cast<float>(rows))));
-}
-
-/// Index column + row * columns of a cell where the mask is set, 0 elsewhere.
-VI cellIndex(V column, V row, int columns, M where) {
-    const auto toInt = [&](V v) { return hn::ConvertTo(DI(), hn::IfThenElseZero(where, v)); };
-    return toInt(column) + toInt(row) * splatInt(columns);
-}
-
 V spheresCoverage(const LightGrid& grid, const Receivers& at, float softness) {
     const D d;
     const V inverse = splat(1.0F / grid.cellSize);
@@ -143,115 +100,6 @@ V spheresCoverage(const LightGrid& grid, const Receivers& at, float softness) {
         const M where = hn::And(left, floatMask(cell == splatInt(one)));
         const V found = cellCoverage(grid, static_cast<std::size_t>(one), at, where, softness);
         coverage = hn::IfThenElse(where, found, coverage);
-        left = hn::AndNot(where, left);
-    }
-    return coverage;
-}
-
-/// Distances along a ray to the light at which it enters and leaves the slab between two opposite faces of a box, m.
-struct Slab {
-    V near, far;
-};
-
-/// The gap between entering one pair of faces and leaving another, as a distance from the outline that the two share.
-V outlineGap(const Slab& entered, const Slab& left, float scale) {
-    return (left.far - entered.near) * splat(scale);
-}
-
-/// Coverage by a box, which seen from the light is a convex hexagon. Let p be the point, l the direction to the light,
-/// and let the ray enter through the face at coordinate a_i on axis i and leave through the face at b_j on axis j. The
-/// gap between entry and exit, (b_j - p_j)/l_j - (a_i - p_i)/l_i, falls linearly with the distance of p to a side of
-/// the hexagon; its gradient in p is e_i/l_i - e_j/l_j, of length sqrt(1/l_i^2 + 1/l_j^2). The least gap over that
-/// length is the signed distance to the outline.
-V boxCoverage(const BoxObstacle& box, const Occluders& occluders, const Receivers& at) {
-    const glm::vec3 inverse = occluders.lightBoxes->inverse;
-    const glm::vec3 scale = occluders.lightBoxes->gapScale;
-    const glm::vec3 low = box.minimum - occluders.eye;
-    const glm::vec3 high = box.maximum - occluders.eye;
-    const auto slab = [&](V position, int axis) {
-        const V first = (splat(low[axis]) - position) * splat(inverse[axis]);
-        const V second = (splat(high[axis]) - position) * splat(inverse[axis]);
-        return Slab{hn::Min(first, second), hn::Max(first, second)};
-    };
-    const Slab x = slab(at.position.x, 0);
-    const Slab y = slab(at.position.y, 1);
-    const Slab z = slab(at.position.z, 2);
-    V inside = outlineGap(x, y, scale.x);
-    inside = hn::Min(inside, outlineGap(y, z, scale.y));
-    inside = hn::Min(inside, outlineGap(z, x, scale.z));
-    inside = hn::Min(inside, outlineGap(x, z, scale.z));
-    inside = hn::Min(inside, outlineGap(y, x, scale.x));
-    inside = hn::Min(inside, outlineGap(z, y, scale.y));
-    const V exit = hn::Min(x.far, hn::Min(y.far, z.far));
-    const float tolerance = 1.0e-4F * length(box.maximum - box.minimum);
-    const bool isSoft = occluders.softness > 0.0F;
-    V width = at.pixelWidth;
-    if (isSoft) {
-        const V limit = hn::Min(splat(occluders.meanRadius), splat(0.5F) * exit);
-        width = hn::Max(width, splat(occluders.softness) * limit);
-    }
-    const V ratio = inside / hn::Max(width, splat(tolerance));
-    return hn::IfThenElseZero(exit > splat(tolerance), isSoft ? softEdge(ratio) : sharpEdge(ratio));
-}
-
-/// Bits for the boxes first, first + 1, ... of the grid's lists, set if they may cover receivers within these bounds.
-/// @param reachU, reachV  how far the edges of shadows reach beyond the boxes along u and v, m
-std::uint32_t coveringBoxes(const LightBoxes& boxes, std::size_t first, const ReceiverBounds& bounds, V reachU,
-                            V reachV) {
-    const D d;
-    const auto at = [&](const std::vector<float>& values) { return hn::LoadU(d, &values[first]); };
-    const M isNearU = hn::And(bounds.highU + reachU >= at(boxes.lowU), bounds.lowU - reachU <= at(boxes.highU));
-    const M isNearV = hn::And(bounds.highV + reachV >= at(boxes.lowV), bounds.lowV - reachV <= at(boxes.highV));
-    return maskBits(hn::And(hn::And(isNearU, isNearV), at(boxes.top) >= bounds.bottom));
-}
-
-/// Adds the coverage by the boxes of one list, in the order of their indices, to what covers some receivers already,
-/// until that is all of the light.
-V addListedBoxes(const Occluders& occluders, std::size_t list, const Receivers& at, M where, V coverage) {
-    const D d;
-    const LightBoxGrid& grid = *occluders.lightBoxes;
-    const ReceiverBounds bounds(at, where);
-    const V widestPixel = hn::Neg(minOfLanes(hn::Neg(at.pixelWidth), where));
-    const V widest = hn::Max(widestPixel, splat(occluders.softness * occluders.meanRadius));
-    const V reachU = splat(grid.edgeReach.x) * widest;
-    const V reachV = splat(grid.edgeReach.y) * widest;
-    const std::size_t end = grid.begin[list + 1];
-    for (std::size_t first = grid.begin[list]; first < end; first += hn::Lanes(d)) {
-        const std::size_t count = std::min(end - first, hn::Lanes(d));
-        for (std::uint32_t bits = coveringBoxes(grid.boxes, first, bounds, reachU, reachV) & ((1U << count) - 1U);
-             bits != 0; bits &= bits - 1) {
-            const std::size_t k = first + static_cast<std::size_t>(std::countr_zero(bits));
-            coverage = coverage + boxCoverage(occluders.boxes[grid.boxes.index[k]], occluders, at);
-            if (none(hn::And(where, coverage < splat(1.0F)))) return coverage;
-        }
-    }
-    return coverage;
-}
-
-/// Adds the coverage by boxes to what covers the receivers already.
-V addBoxes(const Occluders& occluders, const Receivers& at, V coverage) {
-    const D d;
-    const LightBoxGrid& grid = *occluders.lightBoxes;
-    if (grid.isFew()) {
-        for (const BoxObstacle& box : occluders.boxes) coverage = coverage + boxCoverage(box, occluders, at);
-        return coverage;
-    }
-    const V inverse = splat(1.0F / grid.cellSize);
-    const M isNarrow = at.pixelWidth <= splat(grid.widestPixel);
-    const auto cellsAlong = [&](V coordinate, float origin, int count) {
-        return hn::Floor(clamp((coordinate - splat(origin)) * inverse, 0.0F, static_cast<float>(count - 1)));
-    };
-    const VI cell = cellIndex(cellsAlong(at.u, grid.origin.x, grid.columns), cellsAlong(at.v, grid.origin.y, grid.rows),
-                              grid.columns, isNarrow);
-    const VI list =
-        hn::IfThenElse(hn::RebindMask(DI(), isNarrow), cell, splatInt(static_cast<std::int32_t>(grid.listOfAll())));
-    alignas(64) std::array<std::int32_t, kTileSize> lists;
-    storeInt(list, lists.data());
-    for (M left = at.isFacing; !none(left);) {
-        const std::int32_t one = lists[static_cast<std::size_t>(hn::FindFirstTrue(d, left))];
-        const M where = hn::And(left, floatMask(list == splatInt(one)));
-        coverage = hn::IfThenElse(where, addListedBoxes(occluders, static_cast<std::size_t>(one), at, where, coverage),
-                                  coverage);
         left = hn::AndNot(where, left);
     }
     return coverage;

@@ -10,7 +10,6 @@
 #include "render/cpu/lighting/shading_points.h"
 #include "render/picture/view.h"
 #include "render/prepare/ambient_occlusion.h"
-#include "render/prepare/light_boxes.h"
 #include "render/prepare/light_space.h"
 
 namespace render {
