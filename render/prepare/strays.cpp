@@ -84,7 +84,10 @@ class VisibleVolume {
     }
 
     /// Adds a box around something that is seen and may lie in shadow.
-    void addReceiver(const Extent& box) { receivers_.push_back(box); }
+    void addReceiver(const Extent& box) {
+        receivers_.push_back(box);
+        allReceivers_.add(box.low, box.high);
+    }
 
     /// Whether the picture may change with a ball: by what is drawn of it, by the sky that it hides or by its shadow.
     bool isChangedBy(const Ball& ball) const {
@@ -118,19 +121,27 @@ class VisibleVolume {
     }
 
     bool shadesReceiver(const Ball& ball) const {
+        RayPart seen{0.0F, kFarthestShadow * ball.radius};
+        for (const HalfSpace& half : volume_) clipRay(half, ball.center, -toLight_, ball.reach, seen);
+        RayPart near = seen;
+        if (!meets(ball, allReceivers_, near)) return false;
         return std::ranges::any_of(receivers_, [&](const Extent& box) {
-            RayPart part{0.0F, kFarthestShadow * ball.radius};
-            for (const HalfSpace& half : volume_) clipRay(half, ball.center, -toLight_, ball.reach, part);
-            for (int axis = 0; axis < 3; ++axis) {
-                glm::vec3 along(0.0F);
-                along[axis] = 1.0F;
-                clipRay({along, -box.low[axis]}, ball.center, -toLight_, ball.reach, part);
-                clipRay({-along, box.high[axis]}, ball.center, -toLight_, ball.reach, part);
-            }
-            if (!(part.first <= part.second)) return false;
+            RayPart part = seen;
+            if (!meets(ball, box, part)) return false;
             const auto depthAt = [&](float distance) { return dot(ball.center - distance * toLight_, frame_.forward); };
             return !isTooNarrow(ball.radius, std::min(depthAt(part.first), depthAt(part.second)));
         });
+    }
+
+    /// Clips a part of the axis of a ball's shadow to where the shadow may meet a box. @return whether anything is left
+    bool meets(const Ball& ball, const Extent& box, RayPart& part) const {
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::vec3 along(0.0F);
+            along[axis] = 1.0F;
+            clipRay({along, -box.low[axis]}, ball.center, -toLight_, ball.reach, part);
+            clipRay({-along, box.high[axis]}, ball.center, -toLight_, ball.reach, part);
+        }
+        return part.first <= part.second;
     }
 
     const CameraFrame& frame_;
@@ -139,6 +150,7 @@ class VisibleVolume {
     std::optional<Ground> ground_;  // relative to the eye
     bool hasShadows_ = true;
     std::vector<Extent> receivers_;  // relative to the eye
+    Extent allReceivers_;            // the box around all of them
 };
 
 /// The box in which nothing is a stray. @param box  around the particles that are seen

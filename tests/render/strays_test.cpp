@@ -103,6 +103,24 @@ TEST_CASE("a stray's shadow counts where it falls on a box without a ground") {
     CHECK(isStray(glm::vec3(38.0F, 0.0F, 38.0F) + 100.0F * toLight));  // on the box behind the camera
 }
 
+TEST_CASE("a stray's shadow counts on each of several boxes, and not where it falls between them") {
+    render::View view = shadedCloud(render::Style::spheres);
+    view.ground.reset();
+    view.boxObstacles.clear();
+    for (const float x : {-20.0F, 20.0F})
+        view.boxObstacles.push_back({{x - 0.5F, -1.5F, -31.0F}, {x + 0.5F, -1.0F, -30.0F}, glm::vec3(0.5F)});
+    view.camera.verticalFov = 1.2F;
+    const glm::vec3 toLight = glm::normalize(view.light.toLight);
+    const auto isStray = [&](float x) {
+        // Large enough for its shadow to be as wide as a pixel there.
+        return strayCount(with(view, {glm::vec3(x, -1.2F, -30.5F) + 150.0F * toLight, 1.0F, {}})) == 1;
+    };
+    CHECK(!isStray(-20.0F));
+    CHECK(!isStray(20.0F));
+    CHECK(isStray(0.0F));   // between them
+    CHECK(isStray(40.0F));  // beside both
+}
+
 TEST_CASE("without light and without particles there are no strays") {
     render::View view = shadedCloud(render::Style::spheres);
     view.particles.clear();
