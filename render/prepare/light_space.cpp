@@ -231,7 +231,7 @@ CellLists listBoxes(std::span<const CellItem> items, const LightBoxGrid& grid) {
 /// Sets what the outlines of shadows need of the light.
 ///
 /// The edge of a shadow is as wide as a pixel or as the soft edge, and half of it lies outside of the outline.
-/// light_visibility.cpp measures the distance from the nearest of the lines through the sides of the outline: where it
+/// box_shadows-inl.h measures the distance from the nearest of the lines through the sides of the outline: where it
 /// is at most e outside, gap_ij >= -e sqrt(1/l_i^2 + 1/l_j^2) for each two axes. Moving all faces of the box outward by
 /// e adds e (1/|l_i| + 1/|l_j|) to the gap, which is more. So where there is any shadow, the ray to the light meets the
 /// box that is half the width of the edge larger on all sides.

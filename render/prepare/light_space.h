@@ -73,7 +73,7 @@ struct LightBoxGrid {
     float widestPixel = 0.0F;
     /// 1 / components of the direction toward the light; where one is nearly 0, of 1e-6 instead.
     glm::vec3 inverse{1.0F};
-    /// 1 / lengths of the gradients of light_visibility.cpp for the axes x and y, y and z, z and x.
+    /// 1 / lengths of the gradients of box_shadows-inl.h for the axes x and y, y and z, z and x.
     glm::vec3 gapScale{1.0F};
     /// How far an edge reaches beyond the bounds of its box along u and v, in widths of the edge.
     glm::vec2 edgeReach{0.0F};

@@ -45,7 +45,7 @@ struct Grid {
 };
 
 /// Whether the shadow of a box, with edges of a width, reaches a point: the distance to the outline as
-/// light_visibility.cpp derives it.
+/// box_shadows-inl.h derives it.
 /// @param point  relative to the eye
 bool isShaded(const Grid& grid, const BoxObstacle& box, glm::vec3 point, double width) {
     const glm::dvec3 toLight(grid.light.toLight);

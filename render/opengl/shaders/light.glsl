@@ -56,7 +56,7 @@ ivec2 boxList(vec2 at, float pixelWidth) {
 }
 #endif
 
-// Coverage by boxes, whose outlines seen from the light are hexagons (light_visibility.cpp derives the distance).
+// Coverage by boxes, whose outlines seen from the light are hexagons (box_shadows-inl.h derives the distance).
 float boxCoverage(vec3 position, vec3 at, float pixelWidth, bool isFacing) {
 #ifdef BOX_CELLS
     ivec2 list = boxList(at.xy, pixelWidth);

@@ -17,7 +17,7 @@ uniform isamplerBuffer lineBegins;
 uniform isamplerBuffer lineItems;
 uniform samplerBuffer casters;           // spheres that cast shadows: u, v, height, radius (m)
 uniform isamplerBuffer casterBegins;
-uniform samplerBuffer boxCasters;        // two texels a box: low corner and greatest height toward the light, high corner
+uniform samplerBuffer boxCasters;        // two texels a box: low corner and greatest height in light space, high corner
 uniform isamplerBuffer boxCasterBegins;  // the last list has all boxes
 uniform samplerBuffer groundSky;
 uniform samplerBuffer skyGrid;
