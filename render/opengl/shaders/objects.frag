@@ -11,7 +11,7 @@ uniform isamplerBuffer sphereItems;
 uniform samplerBuffer tileSpheres;       // the sphere of each entry of the items
 uniform samplerBuffer boxes;             // three texels a box: low corner, high corner, color
 uniform isamplerBuffer boxBegins;
-uniform samplerBuffer tileBoxes;         // two texels for each box of each tile: low corner and index, high corner and front
+uniform samplerBuffer tileBoxes;         // two texels for each box of a tile: low corner, index, high corner, front
 uniform samplerBuffer lines;             // three texels a line: both ends (pixels), their depths and the width, color
 uniform isamplerBuffer lineBegins;
 uniform isamplerBuffer lineItems;
