@@ -11,8 +11,8 @@
 
 namespace scenes {
 
-/// Whether a [material] asks for a compression that b1 can be chosen for. Records a problem where depth is given without
-/// compression or there is no gravity.
+/// Whether a [material] asks for a compression that b1 can be chosen for. Records a problem where depth is given
+/// without compression or there is no gravity.
 bool checkCompression(Section& material, BuildContext& context);
 
 /// The column whose compression the keys of a [material] describe: as tall as they say, or as the tallest body of the
