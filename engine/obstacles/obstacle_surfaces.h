@@ -75,21 +75,21 @@ inline const WallSurface& wallSurfaceOf(const Obstacles& obstacles, std::size_t 
     return obstacle < obstacles.surfaces.size() ? obstacles.surfaces[obstacle] : kPlainWall;
 }
 
-/// Calls visit(index) for every obstacle that may have a surface nearer to a point than `reach` (m); others may be
-/// among them. Returns a distance (m) that no surface of the obstacles that are left out is nearer than.
+/// Calls visit(index) for all obstacles that have a surface nearer to a point than `reach` (m), and maybe for others.
+/// Returns a lower bound on the distances of the obstacles that are left out, m.
 template <class Visit>
 double forEachNear(const Obstacles& obstacles, const Vec3& point, double reach, const Visit& visit) {
     if (obstacles.index.solids.isEmpty()) {
         for (std::size_t k = 0; k < obstacles.shapes.size(); ++k) visit(k);
         return std::numeric_limits<double>::infinity();
     }
-    for (const std::uint32_t k : obstacles.index.unavoidable) visit(k);
-    obstacles.index.solids.visitNear(point, reach, [&](std::uint32_t box) { visit(obstacles.index.solidAt[box]); });
+    for (const std::uint32_t k : obstacles.index.unbounded) visit(k);
+    obstacles.index.solids.visitNear(point, reach, [&](std::uint32_t box) { visit(obstacles.index.obstacleOf[box]); });
     return reach;
 }
 
-/// Calls visit(Surface) for every surface that is nearer to a point than `reach` (m); others may be among them. Returns
-/// a distance (m) that no surface that is left out is nearer than.
+/// Calls visit(Surface) for all surfaces that are nearer to a point than `reach` (m), and maybe for others. Returns a
+/// lower bound on the distances of those that are left out, m.
 template <class Visit>
 double forEachSurface(const Obstacles& obstacles, const Vec3& point, double reach, const Visit& visit) {
     return forEachNear(obstacles, point, reach, [&](std::size_t k) {

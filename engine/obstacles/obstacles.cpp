@@ -49,7 +49,7 @@ ObstacleIndex indexOf(const Obstacles& obstacles) {
     std::vector<BoundingBox> boxes;
     for (std::uint32_t k = 0; k < shapes.size(); ++k) {
         const bool isSolid = std::holds_alternative<Box>(shapes[k]) || std::holds_alternative<Sphere>(shapes[k]);
-        (isSolid ? index.solidAt : index.unavoidable).push_back(k);
+        (isSolid ? index.obstacleOf : index.unbounded).push_back(k);
         if (isSolid) boxes.push_back(*boundsOf(shapes[k]));
     }
     if (boxes.size() < kFewest) return {};

@@ -78,9 +78,9 @@ enum class WallLaw {
 /// Finds the obstacles near a point. Empty for the paper's walls, whose scenes have few, and where looking at all is
 /// faster.
 struct ObstacleIndex {
-    BoundingBoxTree solids;                  ///< of the boxes and spheres
-    std::vector<std::uint32_t> solidAt;      ///< the obstacles that the boxes of that tree stand for
-    std::vector<std::uint32_t> unavoidable;  ///< planes and containers, which are near every point
+    BoundingBoxTree solids;                 ///< of the boxes and spheres
+    std::vector<std::uint32_t> obstacleOf;  ///< the obstacle that each box of the tree stands for
+    std::vector<std::uint32_t> unbounded;   ///< planes and containers: what they are the surface of has no end
 };
 
 struct Obstacles {

@@ -128,7 +128,8 @@ ContactBounds findContactBounds(const Obstacles& obstacles, const Probe& particl
             visit(surface, contact);
         });
     if (std::isinf(beyond)) return bounds;
-    // There is an index for scaled walls alone; see scaledScale().
+    // Obstacles that are left out are scaled walls, the only ones with an index, and out of reach: scaledScale() of a
+    // surface without contact is two radii.
     bounds.gap = std::min(bounds.gap, beyond - largestContactReach(radius));
     bounds.scale = std::min(bounds.scale, 2.0 * radius);
     return bounds;

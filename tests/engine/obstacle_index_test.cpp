@@ -109,8 +109,8 @@ TEST_CASE("Few obstacles have no index, many have one of all", "[obstacle-index]
     Obstacles ofPaper = many;
     ofPaper.wall = WallLaw::paper;
     CHECK(indexOf(ofPaper).solids.isEmpty());
-    CHECK(many.index.unavoidable == std::vector<std::uint32_t>{0, 1});
-    CHECK(many.index.solidAt.size() == 300);
+    CHECK(many.index.unbounded == std::vector<std::uint32_t>{0, 1});
+    CHECK(many.index.obstacleOf.size() == 300);
     Setup setup;
     setup.obstacles.shapes = many.shapes;
     setup.obstacles.wall = WallLaw::scaled;
