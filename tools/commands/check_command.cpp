@@ -17,12 +17,9 @@
 #include "engine/run/strays.h"
 #include "engine/stepping/step_bound.h"
 #include "engine/stepping/take_step.h"
-#include "render/output/png.h"
 #include "scenes/build/start_warnings.h"
-#include "scenes/view/frame_view.h"
 #include "tools/commands/commands.h"
 #include "tools/run/forecast.h"
-#include "tools/run/open_renderer.h"
 #include "tools/run/run_report.h"
 #include "tools/run/run_warnings.h"
 #include "tools/run/threads.h"
@@ -48,23 +45,9 @@ Json cutOffJson(const Preview& preview) {
                        preview.stepsInCutOff);
 }
 
-/// Wall-clock time in which all frames of a scene are drawn in normal quality and encoded, s, if each takes as long as
-/// the frame that shows this state.
-double secondsOfDrawing(const scenes::Scene& scene, const engine::Simulation& simulation) {
-    const OpenedRenderer opened = openRenderer({}, scene.size, render::Quality::normal, 1);
-    double seconds = 0.0;
-    for (int k = 0; k < 2; ++k) {  // the first one warms up
-        seconds = 0.0;
-        const Stopwatch watch(seconds);
-        render::encodePng(opened.renderer->draw(scenes::frameView(scene, simulation)));
-    }
-    return seconds * scenes::frameCount(scene);
-}
-
 /// What a whole run would take, extrapolated from its first frames: steps, stepper, error, time and memory. What takes
 /// at least one frame to tell is null if the first one was cut off.
-Json predictionJson(const scenes::Scene& scene) {
-    const Preview preview = simulateBeginning(scene);
+Json predictionJson(const scenes::Scene& scene, const Preview& preview) {
     const bool isWhole = preview.frames + 1 >= scenes::frameCount(scene) || !preview.unstable.empty();
     const std::optional<Preview> column = isWhole ? std::nullopt : simulateColumn(scene);
     const std::optional<Forecast> forecast = forecastOf(scene, preview, column);
@@ -89,8 +72,6 @@ Json predictionJson(const scenes::Scene& scene) {
     json["seconds_simulating"] = ifForecast(found.likelySeconds());
     json["seconds_least"] = ifForecast(found.leastSeconds);
     json["seconds_most"] = ifForecast(found.mostSeconds);
-    json["seconds_drawing"] =
-        preview.unstable.empty() ? Json(secondsOfDrawing(scene, preview.simulation)) : Json(nullptr);
     json["processor_share"] = preview.seconds > 0.0 ? preview.processorSeconds / preview.seconds : 1.0;
     json["strays"] = engine::strayCount(preview.simulation);
     // A column gets further, to the error estimates of more steppers, which take most of the memory.
@@ -183,20 +164,24 @@ std::uint64_t residentBytes() {
     return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// Looks at the start of the scene and simulates its first frames, and reports one result after the other.
+/// Looks at the start of the scene, simulates its first frames and draws the last of them, and reports one result after
+/// the other.
 /// @param isStrict  whether the scene is not simulated if there are warnings
 void examine(const scenes::Scene& scene, bool isStrict, const Report& report) {
     std::vector<std::string> warnings = scenes::startWarnings(scene);
     report({{"warnings", warnings}});
     if (isStrict && !(warnings.empty() && scene.warnings.empty())) return;
     if (const auto crowding = crowdingText(scene)) return report({{"cut_off", *crowding}});
-    const Json predicted = predictionJson(scene);
+    const Preview preview = simulateBeginning(scene);
+    const Json predicted = predictionJson(scene, preview);
     report({{"predicted", predicted}});
     if (const Json& error = predicted["error"]; !error.is_null() && isErrorMissed(error, scene.setup.error)) {
         warnings.push_back(scenes::missedErrorWarning(scene, error));
         report({{"warnings", warnings}});
     }
     report({{"step_bound_at_start", boundJson(scene, predicted["stepper"].get<std::string>())}});
+    const bool isDrawn = preview.unstable.empty();
+    report({{"seconds_drawing", isDrawn ? Json(secondsOfDrawing(scene, preview.simulation)) : Json(nullptr)}});
 }
 
 /// Everything that `check` says. What was not found out when the time was up is missing, and "cut_off" says what took
@@ -215,6 +200,7 @@ Json checkJson(const scenes::Scene& scene, int threads, bool isStrict) {
     const char* const slow = !found.contains("warnings")              ? "looking at where the particles start"
                              : !found.contains("predicted")           ? "the first time step"
                              : !found.contains("step_bound_at_start") ? "finding the step bound"
+                             : !found.contains("seconds_drawing")     ? "drawing a frame"
                                                                       : nullptr;
     json["cut_off"] =
         slow == nullptr ? Json(nullptr) : Json(fmt::format("{} takes more than {} s", slow, kMostSeconds));
@@ -242,6 +228,13 @@ std::string boundText(const Json& json) {
                        bound["limited_by"].get<std::string>(), bound["particle"].get<std::size_t>(), verdict);
 }
 
+/// The time of drawing, which may pass while the next frames are simulated; empty if it was not found out.
+std::string drawingText(const Json& json) {
+    const Json seconds = json.value("seconds_drawing", Json(nullptr));
+    if (seconds.is_null()) return "";
+    return fmt::format(" and {} of drawing", durationText(seconds.get<double>(), seconds.get<double>()));
+}
+
 /// The lines on what was found out by simulating the first frames, as far as it was found out.
 std::string predictedText(const Json& json) {
     std::string text = "stepper    " + json["stepper"].get<std::string>();
@@ -264,10 +257,10 @@ std::string predictedText(const Json& json) {
     text += fmt::format("memory     at most {:.1f} MB, {} bytes a particle\n", json["memory_bytes"].get<double>() / 1e6,
                         json["bytes_per_particle"].get<std::size_t>());
     if (predicted["unstable"].is_null() && !predicted["seconds_simulating"].is_null())
-        text += fmt::format(
-            "time       {} of simulating and {} of drawing on this machine, at the same time if there are free cores\n",
-            durationText(predicted["seconds_least"].get<double>(), predicted["seconds_most"].get<double>()),
-            durationText(predicted["seconds_drawing"].get<double>(), predicted["seconds_drawing"].get<double>()));
+        text +=
+            fmt::format("time       {} of simulating{} on this machine\n",
+                        durationText(predicted["seconds_least"].get<double>(), predicted["seconds_most"].get<double>()),
+                        drawingText(json));
     else if (predicted["unstable"].is_null())
         text += "time       not known: not even the first frame was done\n";
     return text;

@@ -12,8 +12,11 @@
 #include "engine/error_control/step_cost.h"
 #include "engine/run/run_memory.h"
 #include "engine/stepping/take_step.h"
+#include "render/output/png.h"
 #include "render/picture/view.h"
 #include "scenes/view/frame_view.h"
+#include "tools/run/open_renderer.h"
+#include "tools/run/run_report.h"
 
 namespace tools {
 namespace {
@@ -287,6 +290,17 @@ std::optional<Forecast> forecastOf(const scenes::Scene& scene, const Preview& be
     const double ofSteps = done > 0 ? stepsDone / std::max(1.0, engine::forceEvaluationsOf(beginning.simulation)) : 1.0;
     return Forecast{beginning.seconds + basis->spread.least * seconds, beginning.seconds + basis->spread.most * seconds,
                     stepsDone + likely * std::min(1.0, ofSteps) * evaluations, last};
+}
+
+double secondsOfDrawing(const scenes::Scene& scene, const engine::Simulation& simulation) {
+    const OpenedRenderer opened = openRenderer({}, scene.size, render::Quality::normal, 1);
+    double seconds = 0.0;
+    for (int k = 0; k < 2; ++k) {  // the first one warms up
+        seconds = 0.0;
+        const Stopwatch watch(seconds);
+        render::encodePng(opened.renderer->draw(scenes::frameView(scene, simulation)));
+    }
+    return seconds * scenes::frameCount(scene);
 }
 
 std::string durationText(double leastSeconds, double mostSeconds) {

@@ -73,6 +73,10 @@ struct Forecast {
 std::optional<Forecast> forecastOf(const scenes::Scene& scene, const Preview& beginning,
                                    const std::optional<Preview>& column);
 
+/// Wall-clock time in which all frames of a scene are drawn in normal quality and encoded, s, if each takes as long as
+/// the one that shows this state.
+double secondsOfDrawing(const scenes::Scene& scene, const engine::Simulation& simulation);
+
 /// A range of time in words: "about 12 s", "3 to 9 minutes". It is "about" where the ends are no further than a factor
 /// of 2 apart, so that the middle is within a factor of 1.5 of both.
 std::string durationText(double leastSeconds, double mostSeconds);
