@@ -65,9 +65,9 @@ TEST_CASE("Both renderers draw the same picture of every built-in scene", "[open
             const auto difference = pictures::compare(byOpenGl, byCpu, style == "spheres" ? 1 : 64);
             INFO(entry.name << ", " << style << ": " << difference);
             if (style == "spheres") {
-                // Single precision, rounded to bytes. Where a ray grazes a sphere, its normal comes from the root of a
-                // small difference, which magnifies roundings: in one pixel of all scenes.
-                CHECK(difference.largest <= 8);
+                // Single precision, rounded to bytes. One of a pixel's four samples may lie so close to an outline that
+                // roundings decide which sphere it hits: in one pixel of all scenes.
+                CHECK(difference.largest <= 64);
                 CHECK(difference.share <= 3.0 / kPixels);
                 continue;
             }
