@@ -14,10 +14,6 @@ namespace {
 constexpr render::PictureSize kSize{121, 75};
 constexpr double kPixels = 121.0 * 75.0;
 
-Difference differenceOf(By by, const render::View& view, int limit) {
-    return compare(drawn(by, view, kSize, Quality::draft), fromOracle(view, kSize, 1), limit);
-}
-
 }  // namespace
 
 TEST_CASE("Hundreds of boxes are drawn as by the oracle") {
@@ -28,7 +24,7 @@ TEST_CASE("Hundreds of boxes are drawn as by the oracle") {
         view.light.shadows = false;
         view.camera.projection = projection;
         view.camera.halfHeight = 2.5F;
-        const Difference difference = differenceOf(by, view, 1);
+        const Difference difference = differenceFromOracle(by, view, kSize, 1);
         INFO(difference);
         // Pixels on outlines and on edges where boxes meet, where single precision may decide otherwise.
         CHECK(difference.share <= 10.0 / kPixels);
@@ -42,7 +38,7 @@ TEST_CASE("The eye among hundreds of boxes") {
     view.light.shadows = false;
     view.camera.eye = {0.32F, 0.25F, 0.41F};
     view.camera.target = {-1.0F, 0.3F, -2.0F};
-    const Difference difference = differenceOf(by, view, 1);
+    const Difference difference = differenceFromOracle(by, view, kSize, 1);
     INFO(difference);
     CHECK(difference.share <= 10.0 / kPixels);  // on outlines, as above
 }
@@ -57,7 +53,7 @@ TEST_CASE("The soft shadows of hundreds of boxes are the oracle's, from above an
             view.light.toLight = glm::normalize(toLight);
             view.light.softness = 1.0F;
             CAPTURE(toLight.x, toLight.y, toLight.z, isCity);
-            const Difference difference = differenceOf(by, view, 2);
+            const Difference difference = differenceFromOracle(by, view, kSize, 2);
             INFO(difference);
             // Where a box touches the surface, and the edge is narrower than a pixel, it is a pixel wide here and sharp
             // in the oracle.
@@ -103,7 +99,7 @@ TEST_CASE("Boxes far beyond the others shade them") {
     }
     view.boxObstacles.push_back({{9.0F, 0.003F, -8.0F}, {9.5F, 16.0F, 8.0F}, glm::vec3(0.5F)});
     CHECK(compare(drawn(by, view, kSize, Quality::draft), sunny, 8).share > 0.03);
-    const Difference difference = differenceOf(by, view, 2);
+    const Difference difference = differenceFromOracle(by, view, kSize, 2);
     INFO(difference);
     CHECK(difference.share < 0.02);
     CHECK(difference.mean < 0.2);

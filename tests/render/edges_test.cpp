@@ -17,7 +17,7 @@ constexpr render::PictureSize kSize{121, 75};
 /// Up to 4 of 9075 pixels may differ, on outlines, where single precision may decide otherwise, and others by 2 steps,
 /// because the normals of metaballs are packed.
 void requireOracle(By by, const render::View& view) {
-    const Difference difference = compare(drawn(by, view, kSize, Quality::draft), fromOracle(view, kSize, 1), 2);
+    const Difference difference = differenceFromOracle(by, view, kSize, 2);
     INFO(difference);
     CHECK(difference.share <= 4.0 / 9075.0);
 }
@@ -83,7 +83,7 @@ TEST_CASE("Pictures of odd sizes are cut from the same picture") {
             CHECK(image.height == size.height);
             CHECK(image.rgb.size() == image.byteCount());
         }
-        const Difference difference = compare(drawn(by, view, size, Quality::draft), fromOracle(view, size, 1), 1);
+        const Difference difference = differenceFromOracle(by, view, size, 1);
         INFO(difference);
         CHECK(difference.share * size.width * size.height <= 1.0);  // one pixel on an outline
     }

@@ -296,7 +296,7 @@ TEST_CASE("Metaballs have the oracle's colors") {
     render::View view = blobs(150);
     view.sphereObstacles.push_back({{-1.4F, 0.5F, 1.4F}, 0.5F, {0.8F, 0.2F, 0.2F}});
     view.boxObstacles.push_back({{0.81F, 0.01F, 1.2F}, {1.6F, 0.7F, 2.0F}, {0.2F, 0.3F, 0.7F}});
-    const Difference difference = compare(drawn(by, view, kSize, Quality::draft), fromOracle(view, kSize, 1), 2);
+    const Difference difference = differenceFromOracle(by, view, kSize, 2);
     INFO(difference);
     CHECK(difference.share <= 10.0 / 9075.0);  // 2 steps: packed normals as above; 10 pixels on outlines
     CHECK(difference.mean < 0.02);             // rounding: one channel in fifty is a step off; counted once: 0.008
@@ -317,7 +317,7 @@ TEST_CASE("In parallel projection the ground hides metaballs from where the rays
     view.camera.halfHeight = 0.64F;
     REQUIRE(view.ground);
     view.ground->height = 0.0F;
-    const Difference difference = compare(drawn(by, view, kSize, Quality::draft), fromOracle(view, kSize, 1), 20);
+    const Difference difference = differenceFromOracle(by, view, kSize, 20);
     INFO(difference);
     CHECK(difference.share <= 10.0 / 9075.0);  // 20 steps: interpolated normals; 10 pixels on outlines
 }

@@ -119,6 +119,12 @@ inline render::Image drawn(By by, const render::View& view, render::PictureSize 
     return by == By::cpu ? drawn(view, size, quality) : openGlRenderer(size, quality).draw(view);
 }
 
+/// How far a renderer is from the oracle, both with one sample a pixel.
+/// @param limit  up to how many steps two pixels count as equal
+inline Difference differenceFromOracle(By by, const render::View& view, render::PictureSize size, int limit) {
+    return compare(drawn(by, view, size, render::Quality::draft), fromOracle(view, size, 1), limit);
+}
+
 /// Particles of different sizes in a box of 3 x 2 x 3 m above the ground, with light and sky of different colors.
 inline render::View cloud(int count, unsigned seed = 7) {
     render::View view;

@@ -47,10 +47,6 @@ render::View denseCloud(Style style) {
     return view;
 }
 
-Difference differenceOf(By by, const render::View& view, int limit) {
-    return compare(drawn(by, view, kSize, Quality::draft), fromOracle(view, kSize, 1), limit);
-}
-
 }  // namespace
 
 TEST_CASE("Each term of the shading is the oracle's, and changes the picture") {
@@ -64,7 +60,7 @@ TEST_CASE("Each term of the shading is the oracle's, and changes the picture") {
             if (by == By::openGl && style == Style::metaballs && !term.dependsOnSky) continue;
             render::View view = plain;
             term.add(view);
-            const Difference difference = differenceOf(by, view, 2);
+            const Difference difference = differenceFromOracle(by, view, kSize, 2);
             INFO(term.name << ", style " << int(style) << ": " << difference);
             // 2 steps: packed normals and sky visibilities; 10 pixels: outlines, where single precision may decide
             // otherwise.
@@ -83,7 +79,7 @@ TEST_CASE("All terms together are the oracle's, in parallel projection too") {
         for (const Term& term : terms()) term.add(view);
         view.camera.projection = render::Projection::orthographic;
         view.camera.halfHeight = 2.0F;
-        const Difference difference = differenceOf(by, view, 3);
+        const Difference difference = differenceFromOracle(by, view, kSize, 3);
         INFO("style " << int(style) << ": " << difference);
         CHECK(difference.share <= 15.0 / kPixels);  // 3 steps: packed inputs of all terms; 15 pixels on outlines
     }
@@ -98,7 +94,7 @@ TEST_CASE("The shadow of the outermost spheres is soft to its end") {
     view.particles.front() = {{0.0F, 1.2F, 0.0F}, 0.5F, {0.9F, 0.5F, 0.2F}};
     view.light.shadows = true;
     view.light.softness = 1.0F;
-    const Difference difference = differenceOf(by, view, 2);
+    const Difference difference = differenceFromOracle(by, view, kSize, 2);
     INFO(difference);
     CHECK(difference.share <= 2.0 / kPixels);  // pixels on outlines, where single precision may decide otherwise
 }
@@ -110,7 +106,7 @@ TEST_CASE("Soft shadows of spheres and boxes are the oracle's") {
     view.light.shadows = true;
     for (const float softness : {0.3F, 1.0F}) {
         view.light.softness = softness;
-        const Difference difference = differenceOf(by, view, 2);
+        const Difference difference = differenceFromOracle(by, view, kSize, 2);
         INFO("softness " << softness << ": " << difference);
         // Where an occluder touches the surface, the edge is a pixel wide here and sharp in the oracle; counted once:
         // 0.0022.
@@ -129,7 +125,7 @@ TEST_CASE("Soft shadows of metaballs are the oracle's up to the depth map's texe
     view.style = Style::metaballs;
     view.light.shadows = true;
     view.light.softness = 1.0F;
-    const Difference difference = differenceOf(by, view, 12);
+    const Difference difference = differenceFromOracle(by, view, kSize, 12);
     INFO(difference);
     // The oracle casts nine rays across a soft edge, so that single samples are a ninth of the light (some 14 steps)
     // off.
@@ -259,7 +255,7 @@ TEST_CASE("A smooth skin is the oracle's") {
     view.field.skin = render::Skin::smooth;
     for (const float reach : {2.0F, 3.5F}) {
         view.field.reach = reach;
-        const Difference difference = differenceOf(by, view, 2);
+        const Difference difference = differenceFromOracle(by, view, kSize, 2);
         INFO("reach " << reach << ": " << difference);
         CHECK(difference.share <= 10.0 / kPixels);  // outlines
     }

@@ -14,7 +14,7 @@ constexpr render::PictureSize kSize{121, 75};  // not a multiple of the tile siz
 constexpr int kStep = 1;
 
 void requireAlike(By by, const render::View& view, double share) {
-    const Difference difference = compare(drawn(by, view, kSize, Quality::draft), fromOracle(view, kSize, 1), kStep);
+    const Difference difference = differenceFromOracle(by, view, kSize, kStep);
     INFO(difference);
     REQUIRE(difference.sameSize);
     CHECK(difference.share <= share);
