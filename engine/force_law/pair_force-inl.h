@@ -30,6 +30,22 @@ struct PairConstants {
     Number cutoffSq;          ///< square of the distance at and beyond which nothing acts, m^2
 };
 
+/// The constants of a pair with the rest length D0 (m), from those of the same materials at a rest length of 1 m, which
+/// are constantsPerRestLength(). Only 1/D0^2 takes a division.
+template <class Number>
+[[gnu::always_inline]] inline PairConstants<Number> atRestLength(const PairConstants<Number>& perRestLength,
+                                                                 Number restLength) {
+    const Number restSq = restLength * restLength;
+    PairConstants<Number> c = perRestLength;
+    c.inverseRestSq = reciprocal(restSq);
+    c.inverseReachSq = c.inverseRestSq * perRestLength.inverseReachSq;
+    c.inverseDampingSq = c.inverseRestSq * perRestLength.inverseDampingSq;
+    c.reachSq = restSq * perRestLength.reachSq;
+    c.coreSq = restSq * perRestLength.coreSq;
+    c.cutoffSq = restSq * perRestLength.cutoffSq;
+    return c;
+}
+
 /// 1/D^2 of a pair, in 1/m^2, where D counts as no smaller than the core distance.
 template <class Number>
 [[gnu::always_inline]] inline Number guardedInverseSq(Number distanceSq, Number coreSq) {

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstdint>
+#include <limits>
 
 #include "engine/core/vec3.h"
 #include "engine/force_law/material.h"
@@ -93,6 +94,18 @@ PairConstants<Number> pairConstants(const Material& material, double restLength)
     c.coreSq = static_cast<Number>(core * core);
     c.friction = static_cast<Number>(material.friction);
     c.cutoffSq = material.damping > 0.0 ? static_cast<Number>(std::max(reach * reach, damping * damping)) : c.reachSq;
+    return c;
+}
+
+/// The constants at a rest length of 1 m, from which atRestLength() computes those of pairs of any radii. 1/R^2 and
+/// 1/S^2 are a few units in the last place too large, so that no rounding lets a pair act at or beyond its cutoff.
+template <std::floating_point Number>
+PairConstants<Number> constantsPerRestLength(const Material& material) {
+    // Six roundings by half a unit each, of D0, 1/D0^2, the constants here and their product.
+    constexpr Number kOutward = 1 + 8 * std::numeric_limits<Number>::epsilon();
+    PairConstants<Number> c = pairConstants<Number>(material, 1.0);
+    c.inverseReachSq *= kOutward;
+    c.inverseDampingSq *= kOutward;
     return c;
 }
 

@@ -32,13 +32,16 @@ std::vector<Material> tabulatedMixtures(const std::vector<Material>& materials) 
     if (materials.size() > kMostTabulated) return mixtures;
     mixtures.reserve(tabulatedCount(materials.size()));
     for (const Material& a : materials)
-        for (const Material& b : materials) mixtures.push_back(sameLaw(a, b) ? a : mixed(a, b));
+        for (const Material& b : materials) mixtures.push_back(tabulated(a, b));
     return mixtures;
 }
 
-PairConstants<double> mixedConstants(const Material& a, const Material& b, double restLength) {
-    if (sameLaw(a, b)) return pairConstants<double>(a, restLength);
-    return pairConstants<double>(mixed(a, b), restLength);
+Material tabulated(const Material& a, const Material& b) {
+    return sameLaw(a, b) ? a : mixed(a, b);
+}
+
+bool isOneLaw(const std::vector<Material>& materials) {
+    return std::ranges::all_of(materials, [&](const Material& m) { return sameLaw(m, materials.front()); });
 }
 
 double cutoffRatio(const std::vector<Material>& materials) {
@@ -53,18 +56,17 @@ double cutoffRatio(const std::vector<Material>& materials) {
 
 ForceTerms termsFor(const ForceField& field, const Particles& particles) {
     ForceTerms terms;
+    terms.oneLaw = isOneLaw(field.materials);
     terms.pair.equalReach = true;  // reaches that are equal in every material are equal in every mixture
     for (const Material& material : field.materials) {
         terms.pair.attraction |= material.repulsionReach > 1.0;
         terms.pair.damping |= material.damping > 0.0;
         terms.pair.friction |= material.friction > 0.0;
         if (material.damping > 0.0) terms.pair.equalReach &= material.repulsionReach == material.dampingReach;
-        terms.uniform &= sameLaw(material, field.materials.front());
     }
     const std::vector<double>& radii = particles.radius;
-    const bool isOneRadius = allEqual(radii);
-    terms.uniform &= isOneRadius;
-    const double largest = radii.empty() ? 0.0 : isOneRadius ? radii.front() : *std::ranges::max_element(radii);
+    terms.oneRadius = allEqual(radii);
+    const double largest = radii.empty() ? 0.0 : terms.oneRadius ? radii.front() : *std::ranges::max_element(radii);
     terms.cutoff = cutoffRatio(field.materials) * 2.0 * largest;
     return terms;
 }

@@ -28,9 +28,16 @@ inline ForceField forceFieldOf(const Setup& setup) {
 /// with these terms only.
 struct ForceTerms {
     PairTerms pair{.attraction = false, .damping = false, .friction = false};
-    bool uniform = true;  ///< whether all pairs of particles have the same constants: one material law, one radius
-    double cutoff = 0.0;  ///< distance at and beyond which no two particles interact, m
+    bool oneLaw = true;     ///< whether all materials have the same force law
+    bool oneRadius = true;  ///< whether all particles have the same radius
+    double cutoff = 0.0;    ///< distance at and beyond which no two particles interact, m
+
+    /// Whether all pairs of particles have the same constants.
+    bool uniform() const { return oneLaw && oneRadius; }
 };
+
+/// Whether all materials have the same force law.
+bool isOneLaw(const std::vector<Material>& materials);
 
 /// The largest cutoff that a pair of these materials can have, in rest lengths (sums of the two radii).
 double cutoffRatio(const std::vector<Material>& materials);
@@ -51,8 +58,7 @@ constexpr std::size_t tabulatedCount(std::size_t materials) {
 /// materials with the same force law are not mixed, so that their pairs have exactly the constants of that law.
 std::vector<Material> tabulatedMixtures(const std::vector<Material>& materials);
 
-/// The constants of a pair of particles of these materials, the same bits as from the table.
-/// @param restLength  in meters
-PairConstants<double> mixedConstants(const Material& a, const Material& b, double restLength);
+/// The mixture of two materials as in the table.
+Material tabulated(const Material& a, const Material& b);
 
 }  // namespace engine

@@ -18,21 +18,23 @@ void packDoubles(const NeighborList& list, const Particles& particles, const std
 }
 
 void packFloats(const NeighborList& list, const Particles& particles, const std::vector<Vec3>& velocities, double unit,
-                std::vector<PackedParticleFloat>& packed) {
-    packed.resize(list.count());
+                PackedFloats& packed) {
+    packed.particles.resize(list.count());
+    packed.identities.resize(list.count());
     const double perMeter = 1.0 / unit;
-    inParallel(packed.size(), kParticleGrain, [&](std::size_t k) {
+    inParallel(list.count(), kParticleGrain, [&](std::size_t k) {
         const std::size_t p = list.order[k];
         const Vec3 units = particles.position[p] * perMeter;
         const Eigen::Vector3f v = velocities[p].cast<float>();
-        packed[k] = {toFixedPoint(units.x()),
-                     toFixedPoint(units.y()),
-                     toFixedPoint(units.z()),
-                     particles.id[p],
-                     v.x(),
-                     v.y(),
-                     v.z(),
-                     positionBits(particles.position[p])};
+        packed.particles[k] = {toFixedPoint(units.x()),
+                               toFixedPoint(units.y()),
+                               toFixedPoint(units.z()),
+                               static_cast<float>(particles.radius[p]),
+                               v.x(),
+                               v.y(),
+                               v.z(),
+                               particles.material[p]};
+        packed.identities[k] = {particles.id[p], positionBits(particles.position[p])};
     });
 }
 

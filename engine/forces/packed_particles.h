@@ -25,9 +25,31 @@ struct alignas(64) PackedParticle {
 /// differences between the positions of near particles are exact at any distance from the origin.
 struct alignas(32) PackedParticleFloat {
     std::int32_t x, y, z;  ///< position, in fixed-point units
+    float radius;          ///< m
+    float vx, vy, vz;      ///< m/s
+    std::uint32_t material;
+};
+
+/// What tells apart particles in single precision whose fixed-point coordinates are equal.
+struct PackedIdentity {
     std::uint32_t id;
-    float vx, vy, vz;       ///< m/s
     std::uint32_t lowBits;  ///< positionBits() of the position in meters
+};
+
+/// Particles packed in single precision.
+struct PackedFloats {
+    std::vector<PackedParticleFloat> particles;
+    std::vector<PackedIdentity> identities;  ///< of each particle; few pairs need it
+
+    bool empty() const { return particles.empty(); }
+    void clear() { particles.clear(); }
+
+    /// Whether two particles have the same position, as far as fixed-point coordinates and positionBits() tell.
+    bool coincide(std::size_t p, std::size_t i) const {
+        const PackedParticleFloat& a = particles[p];
+        const PackedParticleFloat& b = particles[i];
+        return a.x == b.x && a.y == b.y && a.z == b.z && identities[p].lowBits == identities[i].lowBits;
+    }
 };
 
 /// Mixes the last bits of the coordinates into a number that distinguishes positions that are equal in fixed-point
@@ -42,11 +64,6 @@ inline std::uint32_t positionBits(const Vec3& position) {
 /// Whether two particles have the same position.
 inline bool coincide(const PackedParticle& p, const PackedParticle& i) {
     return p.x == i.x && p.y == i.y && p.z == i.z;
-}
-
-/// Whether two particles have the same position, as far as fixed-point coordinates and positionBits() tell.
-inline bool coincide(const PackedParticleFloat& p, const PackedParticleFloat& i) {
-    return p.x == i.x && p.y == i.y && p.z == i.z && p.lowBits == i.lowBits;
 }
 
 /// Rounds a coordinate, given in fixed-point units, to an integer modulo 2^32. The result is arbitrary for NaN and
@@ -70,6 +87,6 @@ void packDoubles(const NeighborList& list, const Particles& particles, const std
 /// @param velocities  velocities that damping and friction are computed from, in m/s
 /// @param unit        length of a fixed-point unit, in meters
 void packFloats(const NeighborList& list, const Particles& particles, const std::vector<Vec3>& velocities, double unit,
-                std::vector<PackedParticleFloat>& packed);
+                PackedFloats& packed);
 
 }  // namespace engine

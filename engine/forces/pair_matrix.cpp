@@ -26,7 +26,7 @@ HWY_FLATTEN void multiplyLanes(const PairMatrix& matrix, std::size_t firstSlot, 
     constexpr Tag<double> kTag{};
     const std::size_t block = NeighborRows::blockOf(firstSlot);
     const RowBlock& rows = matrix.rows.blocks[block];
-    const DoubleLanes source(matrix.packed.data(), &matrix.rows.ownIndices[firstSlot]);
+    const DoubleLanes source(matrix.packed, &matrix.rows.ownIndices[firstSlot]);
     const std::uint32_t longest = longestRow<double>(matrix.rows, firstSlot);
     Vector3<Lanes<double>> sum{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
     std::size_t entry = matrix.rows.at(firstSlot, 0);

@@ -1,6 +1,6 @@
 // Sums equation 1 over the neighbor list. The kernel that runs is compiled with only the terms that the materials need
-// and the sums that the caller wants. A SIMD kernel serves particles of one material and one radius, a scalar kernel
-// all other sets of particles.
+// and the sums that the caller wants. A SIMD kernel serves nearly all sets of particles; a scalar kernel serves
+// particles of too many materials, and pairs that coincide.
 #include "engine/forces/pair_sums.h"
 
 #include <algorithm>
@@ -125,9 +125,9 @@ Vec3& forceOn(const PairTraversal& pairs, std::size_t laneSlot, const PairSums& 
     return wanted.forces[pairs.list.order[pairs.sortedIndexAt(laneSlot)]];
 }
 
-/// Sums over the pairs of particles that have several materials or radii; returns the pair energy, in joules.
+/// Sums over all pairs with the scalar kernel; returns the pair energy, in joules.
 template <Variant variant>
-double sumMixed(const PairTraversal& pairs, const PairSums& wanted) {
+double sumOneByOne(const PairTraversal& pairs, const PairSums& wanted) {
     return overClusters(pairs, variant.hasEnergy, [&](std::size_t first, std::size_t end) {
         double energy = 0.0;
         for (std::size_t laneSlot = first; laneSlot < end; ++laneSlot) {
@@ -152,22 +152,32 @@ bool isCoincident(const PairTraversal& pairs, std::size_t laneSlot) {
 /// not separated these pairs: it has added no force, and an energy U(0) for each.
 template <PairTerms terms>
 void addCoincidentFloat(const PairTraversal& pairs, std::size_t laneSlot, ParticleSums& all) {
-    // A packed particle moved to the origin, since only velocity and id matter where P is zero.
-    const auto atOrigin = [&](const PackedParticleFloat& from) {
-        return PackedParticle{0.0, 0.0, 0.0, from.vx, from.vy, from.vz, pairs.uniformRadius, 0, from.id};
+    // A packed particle moved to the origin, since its position does not matter where P is zero.
+    const auto atOrigin = [&](std::uint32_t sortedIndex) {
+        const PackedParticleFloat& from = pairs.packedFloat.particles[sortedIndex];
+        return PackedParticle{.x = 0.0,
+                              .y = 0.0,
+                              .z = 0.0,
+                              .vx = from.vx,
+                              .vy = from.vy,
+                              .vz = from.vz,
+                              .radius = from.radius,
+                              .material = from.material,
+                              .id = pairs.packedFloat.identities[sortedIndex].id};
     };
-    const PackedParticleFloat& own = pairs.packedFloat[pairs.sortedIndexAt(laneSlot)];
+    const std::uint32_t own = pairs.sortedIndexAt(laneSlot);
     const NeighborRows& rows = pairs.list.rows;
     ParticleSums sums;
     for (std::uint32_t k = 0; k < rows.length[laneSlot]; ++k) {
-        const PackedParticleFloat& other = pairs.packedFloat[rows.sortedIndexAt(laneSlot, k)];
-        if (!coincide(own, other)) continue;
+        const std::uint32_t other = rows.sortedIndexAt(laneSlot, k);
+        if (!pairs.packedFloat.coincide(own, other)) continue;
         const PackedParticle p = atOrigin(own);
         const PackedParticle i = atOrigin(other);
+        const PairConstants<double> constants = pairs.constants(p, i);
         PairTraversal::visitPair(p, i, [&](const Vec3& separation, double distanceSq) {
-            addPair<Variant{terms, true, false}>({p, i, separation, distanceSq}, pairs.uniform, sums);
+            addPair<Variant{terms, true, false}>({p, i, separation, distanceSq}, constants, sums);
         });
-        sums.energy -= 0.5 * pairEnergy(0.0, pairs.uniform);
+        sums.energy -= 0.5 * pairEnergy(0.0, constants);
     }
     all.force += sums.force;
     all.energy += sums.energy;
@@ -192,8 +202,8 @@ void correctCoincident(const PairTraversal& pairs, const PairSums& wanted, std::
     }
 }
 
-/// Sums over the pairs of particles that all have one material and one radius; returns the pair energy, in joules.
-double sumUniform(const PairTraversal& pairs, const PairSums& wanted) {
+/// Sums over all pairs with a SIMD kernel; returns the pair energy, in joules.
+double sumInLanes(const PairTraversal& pairs, const PairSums& wanted) {
     const bool hasEnergy = wanted.energy != nullptr || wanted.matrix != nullptr;
     const ClusterKernel sumCluster = clusterKernel(pairs, wanted);
     return overClusters(pairs, hasEnergy, [&](std::size_t first, std::size_t end) {
@@ -216,8 +226,8 @@ void sumPairs(const PairTraversal& pairs, const PairSums& wanted) {
         wanted.matrix->packed = pairs.packed;
     }
     const double energy =
-        pairs.terms.uniform ? sumUniform(pairs, wanted) : withVariant(pairs.terms.pair, wanted, [&]<Variant variant>() {
-            return sumMixed<variant>(pairs, wanted);
+        pairs.hasLanes() ? sumInLanes(pairs, wanted) : withVariant(pairs.terms.pair, wanted, [&]<Variant variant>() {
+            return sumOneByOne<variant>(pairs, wanted);
         });
     if (wanted.matrix != nullptr) padRows(*wanted.matrix);
     if (wanted.energy != nullptr) *wanted.energy = energy;

@@ -33,16 +33,13 @@ double neighborsWithin(double cutoff, double reach, const NeighborList& list) {
 }  // namespace
 
 PairTraversal::PairTraversal(const ForceField& field, Precision wanted)
-    : materials(field.materials),
-      mixtures(tabulatedMixtures(field.materials)),
-      materialCount(field.materials.size()),
-      precision(wanted) {}
+    : materials(field.materials), table(field.materials), precision(wanted) {}
 
 void PairTraversal::renewList(const ForceField& field, const Particles& particles, const std::vector<Vec3>& velocities,
                               double step) {
     terms = termsFor(field, particles);
     if (covers(list, particles.position, terms.cutoff, groups)) return;
-    const std::span<const double> radii = terms.uniform ? std::span<const double>{} : particles.radius;
+    const std::span<const double> radii = terms.oneRadius ? std::span<const double>{} : particles.radius;
     // Where sizes differ much, the skin is chosen for the size of which there are most.
     const double relativeRadius = typicalRelativeRadius(radii);
     const double cutoff = relativeRadius * terms.cutoff;
@@ -57,15 +54,14 @@ void PairTraversal::renewList(const ForceField& field, const Particles& particle
 void PairTraversal::prepare(const ForceField& field, const Particles& particles, const std::vector<Vec3>& velocities,
                             double step) {
     renewList(field, particles, velocities, step);
-    if (terms.uniform && particles.count() > 0) {
-        uniformRadius = particles.radius.front();
-        uniform = pairConstants<double>(materials.front(), 2.0 * uniformRadius);
-    }
     isPacked = false;
     packedFloat.clear();
-    unit = 1.0;
-    if (!terms.uniform || precision == Precision::doubles) return packParticles(particles, velocities);
-    unit = list.reach() / kUnits;
+    if (particles.count() == 0) return;
+    const bool isFloat = hasLanes() && precision == Precision::singles;
+    unit = isFloat ? list.reach() / kUnits : 1.0;
+    const double restLength = terms.oneRadius ? 2.0 * particles.radius.front() : 0.0;
+    table.fill(terms.pair, restLength);
+    if (!isFloat) return packParticles(particles, velocities);
     packFloats(list, particles, velocities, unit, packedFloat);
 }
 

@@ -12,6 +12,7 @@
 #include "engine/force_law/pair_law.h"
 #include "engine/forces/force_field.h"
 #include "engine/forces/packed_particles.h"
+#include "engine/forces/pair_table.h"
 #include "engine/neighbors/neighbor_list.h"
 #include "engine/neighbors/neighbor_rows.h"
 #include "engine/state/setup.h"
@@ -21,18 +22,15 @@ namespace engine {
 /// State that is kept from one pass over the pairs to the next, since the neighbor list stays valid for many passes.
 struct PairTraversal {
     std::vector<Material> materials;
-    std::vector<Material> mixtures;  ///< see tabulatedMixtures()
-    std::size_t materialCount = 0;
     ForceTerms terms;
-    PairConstants<double> uniform = {};  ///< constants of every pair where terms.uniform
-    double uniformRadius = 0.0;          ///< radius of every particle where terms.uniform, m
+    PairTable table;  ///< constants of the pairs of every two materials
     NeighborList list;
     FarGroups groups;                          ///< groups each of which may move as a whole without outdating the list
-    Precision precision = Precision::doubles;  ///< precision of the pair forces where terms.uniform
-    Scratch<std::vector<PackedParticle>> packed;            ///< particles in double; valid while isPacked
-    Scratch<std::vector<PackedParticleFloat>> packedFloat;  ///< particles in float; empty for a pass in double
-    double unit = 1.0;                                      ///< length unit of the packed coordinates, m
-    bool isPacked = false;  ///< whether `packed` holds the particles of the last prepare()
+    Precision precision = Precision::doubles;  ///< precision of the pair forces where hasLanes()
+    Scratch<std::vector<PackedParticle>> packed;  ///< particles in double; valid while isPacked
+    Scratch<PackedFloats> packedFloat;            ///< particles in float; empty for a pass in double
+    double unit = 1.0;                            ///< length unit of the packed coordinates, m
+    bool isPacked = false;                        ///< whether `packed` holds the particles of the last prepare()
 
     PairTraversal() = default;
     PairTraversal(const ForceField& field, Precision precision);
@@ -51,10 +49,12 @@ struct PairTraversal {
     /// only.
     void packParticles(const Particles& particles, const std::vector<Vec3>& velocities);
 
+    /// Whether the SIMD kernels serve these particles: unless there are many materials with several laws.
+    bool hasLanes() const { return !table.mixtures.empty(); }
+
     PairConstants<double> constants(const PackedParticle& p, const PackedParticle& i) const {
-        const double restLength = p.radius + i.radius;
-        if (mixtures.empty()) return mixedConstants(materials[p.material], materials[i.material], restLength);
-        return pairConstants<double>(mixtures[p.material * materialCount + i.material], restLength);
+        const PairConstants<double> c = table.constantsOf(materials, p.material, i.material);
+        return terms.oneRadius ? c : atRestLength(c, p.radius + i.radius);
     }
 
     /// Index, in the order of the neighbor list, of the particle in a lane slot.

@@ -1,6 +1,6 @@
-// SIMD kernels of the pair forces (equation 1) for particles of one material and one radius, with one particle in each
-// SIMD lane. Called by sumPairs(). In double precision the forces have the bits of the scalar kernel, and the energies
-// agree to rounding; in single precision everything is computed in float.
+// SIMD kernels of the pair forces (equation 1), with one particle in each SIMD lane. Called by sumPairs(). In double
+// precision the forces have the bits of the scalar kernel, and the energies agree to rounding; in single precision
+// everything is computed in float.
 #pragma once
 
 #include <array>
@@ -26,7 +26,11 @@ using ClusterKernel = void (*)(const PairTraversal& pairs, const PairSums& wante
 
 /// The kernel for a pass over all pairs, compiled for the instruction set in use and for the terms and sums that the
 /// pass needs.
+/// @pre pairs.hasLanes()
 ClusterKernel clusterKernel(const PairTraversal& pairs, const PairSums& wanted);
+
+/// The same for particles of several laws or radii; called by clusterKernel().
+ClusterKernel mixedClusterKernel(const PairTraversal& pairs, const PairSums& wanted);
 
 /// The instruction set that kernels run on, for example "AVX2".
 const char* simdInstructionSet();

@@ -1,5 +1,5 @@
-// How the SIMD kernels load packed particles: one neighbor of each particle of the cluster, one in each lane. Packed
-// particles are loaded in blocks of 128 bits and transposed, which takes half the time of gather instructions. Highway
+// How the SIMD kernels load packed particles: one neighbor of each particle of the cluster, one in each lane. Structs
+// are loaded in blocks of 128 bits and transposed, which takes half the time of gather instructions. Highway
 // includes this file once per instruction set, hence the unusual include guard below.
 #if defined(ENGINE_SIMD_PARTICLES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ENGINE_SIMD_PARTICLES_INL_H
@@ -22,11 +22,12 @@ HWY_BEFORE_NAMESPACE();
 namespace engine {
 namespace HWY_NAMESPACE {
 
-/// Positions and velocities of the particles in the SIMD lanes.
+/// Positions, velocities and radii of the particles in the SIMD lanes.
 template <class Position, class Velocity>
 struct Loaded {
     Vector3<Position> position;
     Vector3<Velocity> velocity;  ///< velocity; zero where no term of the force needs it
+    Velocity radius;
 };
 
 /// One pair of particles in each SIMD lane: a particle of the cluster and one of its neighbors.
@@ -69,6 +70,52 @@ HWY_INLINE hn::Vec<D> blocksFrom(D d, const hn::TFromD<D>* base, std::int64_t st
 }
 #endif
 
+/// Four consecutive numbers of several structs, one struct in each SIMD lane.
+template <class T>
+struct Fields {
+    Lanes<T> first, second, third, fourth;
+};
+
+/// Loads four consecutive numbers of the structs with these indices in an array of structs. What is not used of them is
+/// not loaded.
+/// @param base    address of the first number in the first struct
+/// @param stride  numbers from one struct to the next
+HWY_INLINE Fields<double> fieldsOf(const double* base, std::int64_t stride, const std::int32_t* indices) {
+    constexpr Tag<double> kTag{};
+#if HWY_TARGET == HWY_SCALAR
+    const auto field = [&](int number) { return hn::Load(kTag, base + stride * indices[0] + number); };
+    return {field(0), field(1), field(2), field(3)};
+#else
+    // Two numbers of every other struct.
+    const auto pairs = [&](const double* field, const std::int32_t* first) {
+        return blocksFrom(kTag, field, stride, first, 2);
+    };
+    const auto ab0 = pairs(base, indices), ab1 = pairs(base, indices + 1);
+    const auto cd0 = pairs(base + 2, indices), cd1 = pairs(base + 2, indices + 1);
+    return {hn::InterleaveLower(kTag, ab0, ab1), hn::InterleaveUpper(kTag, ab0, ab1),
+            hn::InterleaveLower(kTag, cd0, cd1), hn::InterleaveUpper(kTag, cd0, cd1)};
+#endif
+}
+
+HWY_INLINE Fields<float> fieldsOf(const float* base, std::int64_t stride, const std::int32_t* indices) {
+    constexpr Tag<float> kTag{};
+#if HWY_TARGET == HWY_SCALAR
+    const auto field = [&](int number) { return hn::Load(kTag, base + stride * indices[0] + number); };
+    return {field(0), field(1), field(2), field(3)};
+#else
+    // Loads the four numbers of every fourth struct, then transposes four such vectors.
+    constexpr hn::Repartition<double, Tag<float>> kTwos{};
+    const auto fours = [&](std::size_t first) { return blocksFrom(kTag, base, stride, indices + first, 4); };
+    const auto lower = [&](auto a, auto b) { return hn::BitCast(kTwos, hn::InterleaveLower(kTag, a, b)); };
+    const auto upper = [&](auto a, auto b) { return hn::BitCast(kTwos, hn::InterleaveUpper(kTag, a, b)); };
+    const auto firsts = [&](auto a, auto b) { return hn::BitCast(kTag, hn::InterleaveLower(kTwos, a, b)); };
+    const auto seconds = [&](auto a, auto b) { return hn::BitCast(kTag, hn::InterleaveUpper(kTwos, a, b)); };
+    const auto a = fours(0), b = fours(1), c = fours(2), d = fours(3);
+    const auto low01 = lower(a, b), low23 = lower(c, d), high01 = upper(a, b), high23 = upper(c, d);
+    return {firsts(low01, low23), seconds(low01, low23), firsts(high01, high23), seconds(high01, high23)};
+#endif
+}
+
 /// Loads particles in double precision, with positions in meters.
 struct DoubleLanes {
     using T = double;
@@ -78,40 +125,29 @@ struct DoubleLanes {
     static constexpr hn::Rebind<std::int64_t, Tag<double>> kWide{};
     static constexpr std::int64_t kStride = sizeof(PackedParticle) / sizeof(double);
 
-    const double* base;  ///< address of the first packed particle
+    const PackedParticle* packed;
+    const double* base;            ///< address of the first packed particle
+    const std::int32_t* firstOwn;  ///< sorted indices of the own particles
     hn::Vec<decltype(kIndices)> ownIndices;
     Loaded<V, V> own;
 
-    DoubleLanes(const PackedParticle* packed, const std::int32_t* indices)
-        : base(&packed->x), ownIndices(hn::LoadU(kIndices, indices)) {
+    DoubleLanes(const std::vector<PackedParticle>& all, const std::int32_t* indices)
+        : packed(all.data()), base(&packed->x), firstOwn(indices), ownIndices(hn::LoadU(kIndices, indices)) {
         own = load<true>(indices);
     }
 
     template <bool needsVelocity>
     Loaded<V, V> load(const std::int32_t* indices) const {
-        Vector3<V> x;
-        Vector3<V> v{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
-#if HWY_TARGET == HWY_SCALAR
-        const auto field = [&](int number) { return hn::Load(kTag, base + kStride * indices[0] + number); };
-        x = {field(0), field(1), field(2)};
-        if constexpr (needsVelocity) v = {field(3), field(4), field(5)};
-#else
-        // Two numbers of every other particle.
-        const auto pairs = [](const double* field, const std::int32_t* first) {
-            return blocksFrom(kTag, field, kStride, first, 2);
-        };
-        const V xy0 = pairs(base, indices), xy1 = pairs(base, indices + 1);
-        const V zu0 = pairs(base + 2, indices), zu1 = pairs(base + 2, indices + 1);
-        x = {hn::InterleaveLower(kTag, xy0, xy1), hn::InterleaveUpper(kTag, xy0, xy1),
-             hn::InterleaveLower(kTag, zu0, zu1)};
-        if constexpr (needsVelocity) {
-            const V vw0 = pairs(base + 4, indices), vw1 = pairs(base + 4, indices + 1);
-            v = {hn::InterleaveUpper(kTag, zu0, zu1), hn::InterleaveLower(kTag, vw0, vw1),
-                 hn::InterleaveUpper(kTag, vw0, vw1)};
-        }
-#endif
-        return {x, v};
+        const Fields<double> xyzu = fieldsOf(base, kStride, indices);
+        const Fields<double> vwr = fieldsOf(base + 4, kStride, indices);
+        const V zero = hn::Zero(kTag);
+        return {
+            .position = {xyzu.first, xyzu.second, xyzu.third},
+            .velocity = needsVelocity ? Vector3<V>{xyzu.fourth, vwr.first, vwr.second} : Vector3<V>{zero, zero, zero},
+            .radius = vwr.third};
     }
+
+    std::uint32_t ownMaterial(std::size_t lane) const { return packed[firstOwn[lane]].material; }
 
     /// The pairs of the own particles and the neighbors `others`, which were loaded for these indices.
     template <bool needsVelocity>
@@ -140,44 +176,34 @@ struct FloatLanes {
     using I = hn::Vec<decltype(kWhole)>;
     static constexpr std::int64_t kStride = sizeof(PackedParticleFloat) / sizeof(float);
 
+    const PackedFloats& all;
     const PackedParticleFloat* packed;
-    const float* base;  ///< address of the first packed particle; its positions are bits of integers
+    const float* base;             ///< address of the first packed particle; its positions are bits of integers
+    const std::int32_t* firstOwn;  ///< sorted indices of the own particles
     I ownIndices;
     Loaded<I, V> own;
 
-    FloatLanes(const PackedParticleFloat* all, const std::int32_t* indices)
-        : packed(all), base(reinterpret_cast<const float*>(all)), ownIndices(hn::LoadU(kWhole, indices)) {
+    FloatLanes(const PackedFloats& floats, const std::int32_t* indices)
+        : all(floats),
+          packed(floats.particles.data()),
+          base(reinterpret_cast<const float*>(packed)),
+          firstOwn(indices),
+          ownIndices(hn::LoadU(kWhole, indices)) {
         own = load<true>(indices);
     }
 
     template <bool needsVelocity>
     Loaded<I, V> load(const std::int32_t* indices) const {
-        Vector3<I> x;
-        Vector3<V> v{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
         const auto whole = [](V bits) { return hn::BitCast(kWhole, bits); };
-#if HWY_TARGET == HWY_SCALAR
-        const auto field = [&](int number) { return hn::Load(kTag, base + kStride * indices[0] + number); };
-        x = {whole(field(0)), whole(field(1)), whole(field(2))};
-        if constexpr (needsVelocity) v = {field(4), field(5), field(6)};
-#else
-        // Loads four numbers of every fourth particle, then transposes four such vectors, except for the last row.
-        const auto fields = [&](const float* field) {
-            static constexpr hn::Repartition<double, Tag<float>> kTwos{};
-            const auto fours = [&](std::size_t first) { return blocksFrom(kTag, field, kStride, indices + first, 4); };
-            const auto lower = [](V a, V b) { return hn::BitCast(kTwos, hn::InterleaveLower(kTag, a, b)); };
-            const auto upper = [](V a, V b) { return hn::BitCast(kTwos, hn::InterleaveUpper(kTag, a, b)); };
-            const auto firsts = [](auto a, auto b) { return hn::BitCast(kTag, hn::InterleaveLower(kTwos, a, b)); };
-            const auto seconds = [](auto a, auto b) { return hn::BitCast(kTag, hn::InterleaveUpper(kTwos, a, b)); };
-            const V a = fours(0), b = fours(1), c = fours(2), d = fours(3);
-            const auto xy01 = lower(a, b), xy23 = lower(c, d);
-            return Vector3<V>{firsts(xy01, xy23), seconds(xy01, xy23), firsts(upper(a, b), upper(c, d))};
-        };
-        const Vector3<V> position = fields(base);
-        x = {whole(position.x), whole(position.y), whole(position.z)};
-        if constexpr (needsVelocity) v = fields(base + 4);
-#endif
-        return {x, v};
+        const Fields<float> xyzr = fieldsOf(base, kStride, indices);
+        const Fields<float> uvw = fieldsOf(base + 4, kStride, indices);
+        const V zero = hn::Zero(kTag);
+        return {.position = {whole(xyzr.first), whole(xyzr.second), whole(xyzr.third)},
+                .velocity = needsVelocity ? Vector3<V>{uvw.first, uvw.second, uvw.third} : Vector3<V>{zero, zero, zero},
+                .radius = xyzr.fourth};
     }
+
+    std::uint32_t ownMaterial(std::size_t lane) const { return packed[firstOwn[lane]].material; }
 
     /// The pairs of the own particles and the neighbors `others`, which were loaded for these indices.
     template <bool needsVelocity>
@@ -198,7 +224,7 @@ struct FloatLanes {
         hn::StoreU(ownIndices, kWhole, own32.data());
         hn::StoreMaskBits(kTag, pairs, bits.data());
         for (std::size_t lane = 0; lane < hn::Lanes(kTag); ++lane)
-            if (!coincide(packed[own32[lane]], packed[indices[lane]]))
+            if (!all.coincide(static_cast<std::size_t>(own32[lane]), static_cast<std::size_t>(indices[lane])))
                 bits[lane / 8] &= static_cast<std::uint8_t>(~(1U << lane % 8));
         return hn::LoadMaskBits(kTag, bits.data());
     }

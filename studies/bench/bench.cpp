@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
+#include <span>
 
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
@@ -16,6 +16,7 @@
 #include "engine/stepping/take_step.h"
 #include "render/renderer.h"
 #include "scenes/view/frame_view.h"
+#include "studies/bench/packings.h"
 #include "studies/common/fcc_cube.h"
 #include "studies/common/timing.h"
 
@@ -25,18 +26,6 @@ namespace {
 using engine::Precision;
 using engine::StepperKind;
 using engine::Vec3;
-
-/// A lattice of particles that the benchmark measures on.
-struct Packing {
-    const char* name;
-    const char* material;
-    double spacing;  ///< distance of nearest neighbors, in rest lengths
-};
-
-/// The lattices: most have neighbors at the rest length, one has the spacing of a solid that has settled under its own
-/// attraction, as measured in scenes/library/solid.toml.
-constexpr std::array kPackings = {Packing{"solid", "solid", 1.0}, Packing{"settled solid", "solid", 0.76},
-                                  Packing{"liquid", "liquid", 1.0}, Packing{"powder", "powder", 1.0}};
 
 /// The largest number of particles in measurements of steps. Chosen: with a million, each would take minutes.
 constexpr std::size_t kMostStepped = 100000;
@@ -65,7 +54,7 @@ struct Subject {
 };
 
 Subject subjectOf(const Packing& packing, std::size_t count) {
-    Subject subject{fccCube(packing.material, count, {.spacing = packing.spacing}), {}};
+    Subject subject{packedCube(packing, count), {}};
     const engine::Particles& particles = subject.setup.initial;
     engine::PairTraversal pairs(forceFieldOf(subject.setup), Precision::doubles);
     pairs.prepare(forceFieldOf(subject.setup), particles, particles.velocity);
@@ -98,7 +87,8 @@ BenchRow forcesRow(const Subject& subject, Precision precision, const BenchSetti
     BenchRow row = subject.row;
     row.name = "forces";
     row.precision = precision;
-    if (precision == Precision::singles) row.bytesPerParticle = subject.rowBytes + sizeof(engine::PackedParticleFloat);
+    if (precision == Precision::singles)
+        row.bytesPerParticle = subject.rowBytes + sizeof(engine::PackedParticleFloat) + sizeof(engine::PackedIdentity);
     row.seconds = measured(work, settings);
     row.stateHash = hashOf(forces);
     return row;
@@ -106,9 +96,11 @@ BenchRow forcesRow(const Subject& subject, Precision precision, const BenchSetti
 
 BenchRow listRow(const Subject& subject, const BenchSettings& settings) {
     const engine::Particles& particles = subject.setup.initial;
-    const double cutoff = engine::termsFor(forceFieldOf(subject.setup), particles).cutoff;
+    const engine::ForceTerms terms = engine::termsFor(forceFieldOf(subject.setup), particles);
+    const std::span<const double> radii = terms.oneRadius ? std::span<const double>{} : particles.radius;
+    const double skin = engine::kDefaultSkin * terms.cutoff;
     engine::NeighborList list;
-    const Work work = [&] { engine::build(list, particles.position, {}, cutoff, engine::kDefaultSkin * cutoff); };
+    const Work work = [&] { engine::build(list, particles.position, radii, terms.cutoff, skin); };
     work();  // allocates the memory of the list
     BenchRow row = subject.row;
     row.name = "list";
@@ -193,10 +185,10 @@ void measureLattice(const Packing& packing, std::size_t count, const BenchSettin
 }  // namespace
 
 std::string benchRowsText() {
-    std::vector<std::string> packings;
-    for (const Packing& packing : kPackings) packings.emplace_back(packing.name);
+    std::vector<std::string> names;
+    for (const Packing& packing : packings()) names.emplace_back(packing.name);
     return fmt::format("multiply-add, copy; {} of {}, steps up to {} particles", fmt::join(rowNames(0), ", "),
-                       fmt::join(packings, ", "), kMostStepped);
+                       fmt::join(names, ", "), kMostStepped);
 }
 
 std::vector<BenchRow> runBench(const BenchSettings& settings, const std::function<void(const BenchRow&)>& listener) {
@@ -208,7 +200,7 @@ std::vector<BenchRow> runBench(const BenchSettings& settings, const std::functio
     if (settings.wants("multiply-add", "")) add(multiplyAddRow(settings));
     if (settings.wants("copy", "")) add(copyRow(settings));
     for (const std::size_t count : settings.counts)
-        for (const Packing& packing : kPackings) measureLattice(packing, count, settings, add);
+        for (const Packing& packing : packings()) measureLattice(packing, count, settings, add);
     return rows;
 }
 

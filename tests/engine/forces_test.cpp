@@ -181,11 +181,11 @@ TEST_CASE("Terms and cutoff are those that the materials need", "[forces]") {
     const ForceTerms powder = termsFor(clouds::forceFieldOf("powder"), equal);
     CHECK_FALSE(powder.pair.attraction);
     CHECK(powder.pair.damping);
-    CHECK(powder.uniform);
+    CHECK(powder.uniform());
     CHECK(powder.cutoff == Approx(0.3));
     CHECK(termsFor(clouds::forceFieldOf("liquid"), equal).cutoff == Approx(0.6));
     CHECK(termsFor(clouds::forceFieldOf("solid"), equal).pair.attraction);
-    CHECK_FALSE(termsFor(clouds::forceFieldOf("solid"), clouds::strewnUnequal(10, 1.0)).uniform);
+    CHECK_FALSE(termsFor(clouds::forceFieldOf("solid"), clouds::strewnUnequal(10, 1.0)).uniform());
     Material undamped = *materialPreset("liquid");
     undamped.damping = 0.0;
     CHECK_FALSE(termsFor(clouds::forceFieldOf(undamped), equal).pair.damping);
@@ -210,10 +210,10 @@ TEST_CASE("A single change among the radii is found, wherever threads divide the
             INFO(smaller << " of " << count);
             Particles particles;
             particles.radius.assign(count, 0.3);
-            CHECK(termsFor(field, particles).uniform);
+            CHECK(termsFor(field, particles).uniform());
             std::fill_n(particles.radius.begin(), smaller, 0.15);
             const ForceTerms terms = termsFor(field, particles);
-            CHECK_FALSE(terms.uniform);
+            CHECK_FALSE(terms.uniform());
             CHECK(terms.cutoff == cutoffRatio(field.materials) * 0.6);
         }
     }

@@ -98,11 +98,11 @@ TEST_CASE("Packed particles are those of the list's order", "[simd]") {
     for (std::uint32_t k = 0; k < 1003; ++k) list.order.push_back(k * 7 % 1003);
     constexpr double kUnit = 0x1p-20;  // a power of two, so that no coordinate below is rounded on the way
     std::vector<PackedParticle> packed;
-    std::vector<PackedParticleFloat> packedFloat;
+    PackedFloats packedFloat;
     packDoubles(list, particles, particles.velocity, packed);
     packFloats(list, particles, particles.velocity, kUnit, packedFloat);
     REQUIRE(packed.size() == 1003);
-    REQUIRE(packedFloat.size() == 1003);
+    REQUIRE(packedFloat.particles.size() == 1003);
     for (std::size_t k = 0; k < 1003; ++k) {
         const std::size_t p = list.order[k];
         const Vec3& x = particles.position[p];
@@ -112,14 +112,16 @@ TEST_CASE("Packed particles are those of the list's order", "[simd]") {
         CHECK(packed[k].radius == particles.radius[p]);
         CHECK(packed[k].material == particles.material[p]);
         CHECK(packed[k].id == particles.id[p]);
-        CHECK(packedFloat[k].x == std::nearbyint(x.x() / kUnit));
-        CHECK(packedFloat[k].y == std::nearbyint(x.y() / kUnit));
-        CHECK(packedFloat[k].z == std::nearbyint(x.z() / kUnit));
-        CHECK(packedFloat[k].vx == static_cast<float>(v.x()));
-        CHECK(packedFloat[k].vy == static_cast<float>(v.y()));
-        CHECK(packedFloat[k].vz == static_cast<float>(v.z()));
-        CHECK(packedFloat[k].id == particles.id[p]);
-        CHECK(packedFloat[k].lowBits == positionBits(x));
+        CHECK(packedFloat.particles[k].x == std::nearbyint(x.x() / kUnit));
+        CHECK(packedFloat.particles[k].y == std::nearbyint(x.y() / kUnit));
+        CHECK(packedFloat.particles[k].z == std::nearbyint(x.z() / kUnit));
+        CHECK(packedFloat.particles[k].vx == static_cast<float>(v.x()));
+        CHECK(packedFloat.particles[k].vy == static_cast<float>(v.y()));
+        CHECK(packedFloat.particles[k].vz == static_cast<float>(v.z()));
+        CHECK(packedFloat.particles[k].radius == static_cast<float>(particles.radius[p]));
+        CHECK(packedFloat.particles[k].material == particles.material[p]);
+        CHECK(packedFloat.identities[k].id == particles.id[p]);
+        CHECK(packedFloat.identities[k].lowBits == positionBits(x));
     }
 }
 
@@ -255,12 +257,12 @@ TEST_CASE("In double, forces have the bits of the scalar kernel", "[simd]") {
         ForceField field = clouds::forceFieldOf(material);
         ForceEvaluator lanes(field, ForceMethod::grid);
         const Particles particles = block(material, Vec3(1.0, 2.0, 3.0));
-        REQUIRE(termsFor(field, particles).uniform);
+        REQUIRE(termsFor(field, particles).uniform());
         // A second material, which no particle has, rules out the SIMD kernel.
         material.repulsion *= 2.0;
         field.materials.push_back(material);
         ForceEvaluator scalar(field, ForceMethod::grid);
-        REQUIRE_FALSE(termsFor(field, particles).uniform);
+        REQUIRE_FALSE(termsFor(field, particles).uniform());
         std::vector<Vec3> actual;
         std::vector<Vec3> expected;
         lanes.evaluatePairs(particles, particles.velocity, actual);

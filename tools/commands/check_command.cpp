@@ -130,7 +130,7 @@ Json sceneJson(const scenes::Scene& scene) {
         json["materials"].push_back(materialJson(scene.setup.materials[index], scene.materialNotes[index]));
     json["bodies"] = Json::array();
     for (const scenes::BodyColumn& body : scene.bodyColumns) json["bodies"].push_back(bodyJson(body));
-    json["uniform"] = terms.uniform;
+    json["uniform"] = terms.uniform();
     json["cutoff"] = terms.cutoff;
     json["obstacles"] = scene.setup.obstacles.shapes.size();
     json["stepper"] = engine::nameOf(scene.setup.stepper);
