@@ -20,7 +20,8 @@ void packDoubles(const NeighborList& list, const Particles& particles, const std
 void packFloats(const NeighborList& list, const Particles& particles, const std::vector<Vec3>& velocities, double unit,
                 PackedFloats& packed) {
     packed.particles.resize(list.count());
-    packed.identities.resize(list.count());
+    packed.source = &particles;
+    packed.order = &list.order;
     const double perMeter = 1.0 / unit;
     inParallel(list.count(), kParticleGrain, [&](std::size_t k) {
         const std::size_t p = list.order[k];
@@ -34,7 +35,6 @@ void packFloats(const NeighborList& list, const Particles& particles, const std:
                                v.y(),
                                v.z(),
                                particles.material[p]};
-        packed.identities[k] = {particles.id[p], positionBits(particles.position[p])};
     });
 }
 

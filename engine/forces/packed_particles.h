@@ -30,36 +30,23 @@ struct alignas(32) PackedParticleFloat {
     std::uint32_t material;
 };
 
-/// What tells apart particles in single precision whose fixed-point coordinates are equal.
-struct PackedIdentity {
-    std::uint32_t id;
-    std::uint32_t lowBits;  ///< positionBits() of the position in meters
-};
-
-/// Particles packed in single precision.
+/// Particles packed in single precision, with those that they were packed from, which tell apart particles whose
+/// fixed-point coordinates are equal.
 struct PackedFloats {
     std::vector<PackedParticleFloat> particles;
-    std::vector<PackedIdentity> identities;  ///< of each particle; few pairs need it
+    const Particles* source = nullptr;                  ///< must stay unchanged while the packed particles are read
+    const std::vector<std::uint32_t>* order = nullptr;  ///< particle index of each packed particle
 
     bool empty() const { return particles.empty(); }
     void clear() { particles.clear(); }
 
-    /// Whether two particles have the same position, as far as fixed-point coordinates and positionBits() tell.
+    /// Whether two particles have the same position.
     bool coincide(std::size_t p, std::size_t i) const {
-        const PackedParticleFloat& a = particles[p];
-        const PackedParticleFloat& b = particles[i];
-        return a.x == b.x && a.y == b.y && a.z == b.z && identities[p].lowBits == identities[i].lowBits;
+        return source->position[(*order)[p]] == source->position[(*order)[i]];
     }
-};
 
-/// Mixes the last bits of the coordinates into a number that distinguishes positions that are equal in fixed-point
-/// units.
-inline std::uint32_t positionBits(const Vec3& position) {
-    const auto lastBits = [](double number) {
-        return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(number));
-    };
-    return lastBits(position.x()) ^ std::rotl(lastBits(position.y()), 11) ^ std::rotl(lastBits(position.z()), 22);
-}
+    std::uint32_t id(std::size_t p) const { return source->id[(*order)[p]]; }
+};
 
 /// Whether two particles have the same position.
 inline bool coincide(const PackedParticle& p, const PackedParticle& i) {

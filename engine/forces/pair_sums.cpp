@@ -163,7 +163,7 @@ void addCoincidentFloat(const PairTraversal& pairs, std::size_t laneSlot, Partic
                               .vz = from.vz,
                               .radius = from.radius,
                               .material = from.material,
-                              .id = pairs.packedFloat.identities[sortedIndex].id};
+                              .id = pairs.packedFloat.id(sortedIndex)};
     };
     const std::uint32_t own = pairs.sortedIndexAt(laneSlot);
     const NeighborRows& rows = pairs.list.rows;

@@ -1,6 +1,7 @@
 // Tabulates the constants of the force law for every pair of materials.
 #include "engine/forces/pair_table.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/forces/force_field.h"
@@ -21,6 +22,20 @@ PairTableRow<T> rowOf(const Material& material, double restLength, bool hasDampi
             .halfSlope = T(0.5) * pairCoefficient<kConservative>(c.coreSq, T(0), c)};
 }
 
+template <class T>
+PairTableIn<T> tableOf(const std::vector<Material>& mixtures, double restLength, bool hasDampingReach) {
+    PairTableIn<T> table;
+    table.inverseRestSq = constantsAt<T>(mixtures.front(), restLength).inverseRestSq;
+    for (const Material& material : mixtures) table.rows.push_back(rowOf<T>(material, restLength, hasDampingReach));
+    for (std::size_t k = 0; k < std::min(table.rows.size(), table.columns[0].size()); ++k) {
+        const PairTableRow<T>& row = table.rows[k];
+        const std::array<T, 8> fields = {row.b1,       row.bd,    row.coreSq,   row.outerInverseSq, row.inverseReachSq,
+                                         row.friction, row.reach, row.halfSlope};
+        for (std::size_t field = 0; field < fields.size(); ++field) table.columns[field][k] = fields[field];
+    }
+    return table;
+}
+
 }  // namespace
 
 PairTable::PairTable(const std::vector<Material>& materials) {
@@ -34,14 +49,11 @@ void PairTable::fill(PairTerms needed, double wanted) {
     if (wanted == restLength) return;
     restLength = wanted;
     constants.clear();
-    doubles.clear();
-    singles.clear();
     const bool isDamping = withTerms(needed, []<PairTerms terms>() { return hasDampingReach(terms); });
-    for (const Material& material : mixtures) {
-        constants.push_back(constantsAt<double>(material, restLength));
-        doubles.push_back(rowOf<double>(material, restLength, isDamping));
-        singles.push_back(rowOf<float>(material, restLength, isDamping));
-    }
+    for (const Material& material : mixtures) constants.push_back(constantsAt<double>(material, restLength));
+    if (mixtures.empty()) return;
+    doubles = tableOf<double>(mixtures, restLength, isDamping);
+    singles = tableOf<float>(mixtures, restLength, isDamping);
 }
 
 PairConstants<double> PairTable::constantsOf(const std::vector<Material>& materials, std::uint32_t p,

@@ -2,6 +2,7 @@
 // PairTraversal for particles of several materials with different laws.
 #pragma once
 
+#include <array>
 #include <type_traits>
 #include <vector>
 
@@ -54,6 +55,15 @@ PairConstants<T> constantsAt(const Material& material, double restLength) {
     return constantsPerRestLength<T>(material);
 }
 
+/// The table in the precision of the SIMD kernels.
+template <class T>
+struct PairTableIn {
+    std::vector<PairTableRow<T>> rows;
+    T inverseRestSq = T(0);  ///< 1/D0^2 of every pair, where all have one rest length
+    /// The first rows by columns, in the order of the fields of a row: as many as a SIMD register holds.
+    std::array<std::array<T, 64 / sizeof(T)>, 8> columns = {};
+};
+
 /// The table, with an entry for every material and every other; symmetric bit for bit. It is empty for more than
 /// kMostTabulated materials.
 struct PairTable {
@@ -62,8 +72,8 @@ struct PairTable {
     bool oneLaw = true;        ///< whether all materials have the same law; the table then has a single entry
     double restLength = -1.0;  ///< rest length that the entries were computed for, as in constantsAt()
     std::vector<PairConstants<double>> constants;
-    std::vector<PairTableRow<double>> doubles;
-    std::vector<PairTableRow<float>> singles;
+    PairTableIn<double> doubles;
+    PairTableIn<float> singles;
 
     PairTable() = default;
     explicit PairTable(const std::vector<Material>& materials);
@@ -71,6 +81,14 @@ struct PairTable {
     /// Computes the entries for kernels with the terms that all materials need, unless it has done so before.
     /// @param wanted  rest length of every pair as in constantsAt()
     void fill(PairTerms terms, double wanted);
+
+    template <class T>
+    const PairTableIn<T>& in() const {
+        if constexpr (std::is_same_v<T, double>)
+            return doubles;
+        else
+            return singles;
+    }
 
     /// The entry of two materials, which is computed anew where there is no table.
     PairConstants<double> constantsOf(const std::vector<Material>& materials, std::uint32_t p, std::uint32_t i) const;

@@ -95,18 +95,21 @@ HWY_FLATTEN void sumLanes(const PairTraversal& pairs, const PairSums& wanted, st
     const NeighborRows& rows = pairs.list.rows;
     const std::uint32_t longest = longestRow<T>(rows, first);
     const Source source(packedIn<T>(pairs), &rows.ownIndices[first]);
-    const Laws laws(pairs, wanted.weights, source);
+    const Laws laws(pairs, wanted.weights, source, &rows.ownIndices[first]);
     Vector3<V> force{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
     V energy = hn::Zero(kTag);
     auto coincident = hn::FirstN(kTag, 0);
     [[maybe_unused]] MatrixRows<T> matrixRows{wanted.matrix, first};
     const std::int32_t* entry = &rows.blocks[NeighborRows::blockOf(first)].entries[rows.at(first, 0)];
     auto ahead = source.template load<kTerms.damping>(entry);
+    auto traitsAhead = laws.traits(entry);
     for (std::uint32_t k = 0; k < longest; ++k, entry += kClusterSize) {
         prefetchRows(entry);
         const auto others = kLoadsAhead ? ahead : source.template load<kTerms.damping>(entry);
+        const auto traits = kLoadsAhead ? traitsAhead : laws.traits(entry);
+        if constexpr (kLoadsAhead) traitsAhead = laws.traits(entry + kClusterSize);
         if constexpr (kLoadsAhead) ahead = source.template load<kTerms.damping>(entry + kClusterSize);
-        const Law<T, variant>& law = laws.of(entry, others);
+        const Law<T, variant>& law = laws.of(traits);
         const Row<T> row = source.template row<kTerms.damping>(entry, others);
         const V separationSq = dot(row.separation, row.separation);
         const V distanceSq = law.squareMeters(separationSq);

@@ -91,7 +91,9 @@ struct OneLaw {
     using T = typename Source::T;
     Law<T, variant> law;
 
-    OneLaw(const PairTraversal& pairs, const MatrixWeights& weights, const Source& /*own*/) : law(pairs, weights) {
+    OneLaw(const PairTraversal& pairs, const MatrixWeights& weights, const Source& /*source*/,
+           const std::int32_t* /*ownIndices*/)
+        : law(pairs, weights) {
         const engine::PairConstants<double>& exact = pairs.table.constants.front();
         const engine::PairConstants<T> c = roundedConstants<T>(exact);
         law.constants.b1 = law.set(c.b1);
@@ -115,11 +117,12 @@ struct OneLaw {
         if constexpr (variant.hasMatrix) law.damping = law.set(c.bd);
     }
 
-    /// The law of the pairs of the own particles and the neighbors `others`, which were loaded for these indices.
-    template <class Loaded>
-    HWY_INLINE const Law<T, variant>& of(const std::int32_t* /*indices*/, const Loaded& /*others*/) const {
-        return law;
-    }
+    /// What the law of a pair depends on, of the particles with these indices: nothing.
+    struct None {};
+    HWY_INLINE None traits(const std::int32_t* /*indices*/) const { return {}; }
+
+    /// The law of the pairs of the own particles and others with these traits.
+    HWY_INLINE const Law<T, variant>& of(None /*others*/) const { return law; }
 };
 
 /// A row of the table of materials for the pair in each SIMD lane; the fields are those of PairTableRow.
@@ -135,39 +138,35 @@ struct MixedLaws {
     using T = typename Source::T;
     using V = Lanes<T>;
     static constexpr Tag<T> kTag{};
+    static constexpr WholeTag<T> kWhole{};
 
     const Source& source;
+    const PairTableIn<T>& table;
     Law<T, variant> common;  ///< what all pairs have in common; of the constants only 1/D0^2, where there is one radius
     bool hasLaws, hasRadii;
-    const PairTableRow<T>* table;
-    LaneRow<V> front;                                 ///< the first row, for one law
-    std::array<std::int32_t, kClusterSize> firstRow;  ///< number of the first row of each own particle's material
+    bool isSmall;        ///< whether each field of the table fits a SIMD register
+    Whole<T> firstRows;  ///< first row in the table of the own particles' materials
+    V ownRadius;
 
-    MixedLaws(const PairTraversal& pairs, const MatrixWeights& weights, const Source& own)
-        : source(own), common(pairs, weights), hasLaws(!pairs.terms.oneLaw), hasRadii(!pairs.terms.oneRadius) {
-        if constexpr (std::is_same_v<T, double>)
-            table = pairs.table.doubles.data();
-        else
-            table = pairs.table.singles.data();
-        const auto set = [](T value) { return hn::Set(kTag, value); };
-        common.constants.inverseRestSq = set(roundedConstants<T>(pairs.table.constants.front()).inverseRestSq);
-        front = {set(table->b1),
-                 set(table->bd),
-                 set(table->coreSq),
-                 set(table->outerInverseSq),
-                 set(table->inverseReachSq),
-                 set(table->friction),
-                 set(table->reach),
-                 set(table->halfSlope)};
-        for (std::size_t lane = 0; lane < hn::Lanes(kTag); ++lane)
-            firstRow[lane] = static_cast<std::int32_t>(own.ownMaterial(lane) * pairs.table.materialCount);
+    MixedLaws(const PairTraversal& pairs, const MatrixWeights& weights, const Source& from,
+              const std::int32_t* ownIndices)
+        : source(from), table(pairs.table.in<T>()), common(pairs, weights) {
+        hasLaws = !pairs.terms.oneLaw;
+        hasRadii = !pairs.terms.oneRadius;
+        isSmall = table.rows.size() <= hn::Lanes(kTag);
+        common.constants.inverseRestSq = common.set(table.inverseRestSq);
+        const Traits<T> own = source.traits(ownIndices);
+        ownRadius = own.radius;
+        using Integer = hn::TFromD<decltype(kWhole)>;
+        firstRows = hn::Mul(own.material, hn::Set(kWhole, static_cast<Integer>(pairs.table.materialCount)));
     }
 
-    /// The law of the pairs of the own particles and the neighbors `others`, which were loaded for these indices.
-    template <class Loaded>
-    HWY_INLINE Law<T, variant> of(const std::int32_t* indices, const Loaded& others) const {
-        LaneRow<V> row = front;
-        if (hasLaws) row = rowOf(indices);
+    HWY_INLINE Traits<T> traits(const std::int32_t* indices) const { return source.traits(indices); }
+
+    /// The law of the pairs of the own particles and others with these traits.
+    HWY_INLINE Law<T, variant> of(const Traits<T>& others) const {
+        LaneRow<V> row;
+        readRow(others, row);
         Law<T, variant> law = common;
         PairConstants<V>& c = law.constants;
         c.b1 = row.b1;
@@ -181,7 +180,7 @@ struct MixedLaws {
         law.halfSlope = row.halfSlope;
         c.reachSq = hn::Mul(row.reach, row.reach);
         if (hasRadii) {
-            const V restLength = hn::Add(source.own.radius, others.radius);
+            const V restLength = hn::Add(ownRadius, others.radius);
             c = atRestLength(c, restLength);
             law.reach = hn::Mul(row.reach, restLength);
             // The coefficient falls with the fifth power of the rest length.
@@ -196,15 +195,45 @@ struct MixedLaws {
     }
 
  private:
-    /// The rows of the table for the pairs of the own particles and the neighbors with these indices.
-    HWY_INLINE LaneRow<V> rowOf(const std::int32_t* indices) const {
-        std::array<std::int32_t, kClusterSize> rows;
-        for (std::size_t lane = 0; lane < hn::Lanes(kTag); ++lane)
-            rows[lane] = firstRow[lane] + static_cast<std::int32_t>(source.packed[indices[lane]].material);
+    /// Reads the rows of the table for the pairs of the own particles and these. The fields are assigned one by one, as
+    /// the compiler would copy whole structs through memory.
+    HWY_INLINE void readRow(const Traits<T>& others, LaneRow<V>& row) const {
+        if (!hasLaws) return assign(row, [&](std::size_t field) { return common.set(table.columns[field][0]); });
+        const Whole<T> rows = hn::Add(firstRows, others.material);
+        if constexpr (hn::MaxLanes(kTag) >= 4) {  // the fewest rows that a table of several laws has
+            if (isSmall) {
+                const auto at = hn::IndicesFromVec(kTag, rows);
+                return assign(row, [&](std::size_t field) {
+                    return hn::TableLookupLanes(hn::LoadU(kTag, table.columns[field].data()), at);
+                });
+            }
+        }
+        std::array<hn::TFromD<WholeTag<T>>, kClusterSize> indices;
+        hn::StoreU(rows, kWhole, indices.data());
         constexpr std::int64_t kStride = sizeof(PairTableRow<T>) / sizeof(T);
-        const Fields<T> near = fieldsOf(&table->b1, kStride, rows.data());
-        const Fields<T> far = fieldsOf(&table->inverseReachSq, kStride, rows.data());
-        return {near.first, near.second, near.third, near.fourth, far.first, far.second, far.third, far.fourth};
+        const Fields<T> near = fieldsOf(&table.rows.front().b1, kStride, indices.data());
+        row.b1 = near.first;
+        row.bd = near.second;
+        row.coreSq = near.third;
+        row.outerInverseSq = near.fourth;
+        const Fields<T> far = fieldsOf(&table.rows.front().inverseReachSq, kStride, indices.data());
+        row.inverseReachSq = far.first;
+        row.friction = far.second;
+        row.reach = far.third;
+        row.halfSlope = far.fourth;
+    }
+
+    /// Assigns value(number of the field) to the fields of a row.
+    template <class Value>
+    HWY_INLINE static void assign(LaneRow<V>& row, const Value& value) {
+        row.b1 = value(0);
+        row.bd = value(1);
+        row.coreSq = value(2);
+        row.outerInverseSq = value(3);
+        row.inverseReachSq = value(4);
+        row.friction = value(5);
+        row.reach = value(6);
+        row.halfSlope = value(7);
     }
 };
 

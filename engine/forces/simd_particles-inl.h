@@ -22,12 +22,24 @@ HWY_BEFORE_NAMESPACE();
 namespace engine {
 namespace HWY_NAMESPACE {
 
-/// Positions, velocities and radii of the particles in the SIMD lanes.
+/// Integers as wide as the numbers in the SIMD lanes.
+template <class T>
+using WholeTag = hn::RebindToSigned<Tag<T>>;
+template <class T>
+using Whole = hn::Vec<WholeTag<T>>;
+
+/// What the law of a pair depends on, of the particles in the SIMD lanes.
+template <class T>
+struct Traits {
+    Lanes<T> radius;    ///< m
+    Whole<T> material;  ///< index of the material
+};
+
+/// Positions and velocities of the particles in the SIMD lanes.
 template <class Position, class Velocity>
 struct Loaded {
     Vector3<Position> position;
     Vector3<Velocity> velocity;  ///< velocity; zero where no term of the force needs it
-    Velocity radius;
 };
 
 /// One pair of particles in each SIMD lane: a particle of the cluster and one of its neighbors.
@@ -56,8 +68,8 @@ HWY_INLINE void prefetchRows(const Entry* entry) {
 /// A SIMD vector of 128-bit blocks, one from the packed particle of every `every`-th index in a list of indices.
 /// @param base    address of the block in the first packed particle
 /// @param stride  numbers from one packed particle to the next
-template <class D>
-HWY_INLINE hn::Vec<D> blocksFrom(D d, const hn::TFromD<D>* base, std::int64_t stride, const std::int32_t* indices,
+template <class D, class Index>
+HWY_INLINE hn::Vec<D> blocksFrom(D d, const hn::TFromD<D>* base, std::int64_t stride, const Index* indices,
                                  std::size_t every) {
     constexpr std::size_t kBlocks = hn::MaxLanes(D()) * sizeof(hn::TFromD<D>) / 16;
     if constexpr (kBlocks <= 1) {
@@ -80,14 +92,15 @@ struct Fields {
 /// not loaded.
 /// @param base    address of the first number in the first struct
 /// @param stride  numbers from one struct to the next
-HWY_INLINE Fields<double> fieldsOf(const double* base, std::int64_t stride, const std::int32_t* indices) {
+template <class Index>
+HWY_INLINE Fields<double> fieldsOf(const double* base, std::int64_t stride, const Index* indices) {
     constexpr Tag<double> kTag{};
 #if HWY_TARGET == HWY_SCALAR
     const auto field = [&](int number) { return hn::Load(kTag, base + stride * indices[0] + number); };
     return {field(0), field(1), field(2), field(3)};
 #else
     // Two numbers of every other struct.
-    const auto pairs = [&](const double* field, const std::int32_t* first) {
+    const auto pairs = [&](const double* field, const Index* first) {
         return blocksFrom(kTag, field, stride, first, 2);
     };
     const auto ab0 = pairs(base, indices), ab1 = pairs(base, indices + 1);
@@ -125,29 +138,30 @@ struct DoubleLanes {
     static constexpr hn::Rebind<std::int64_t, Tag<double>> kWide{};
     static constexpr std::int64_t kStride = sizeof(PackedParticle) / sizeof(double);
 
-    const PackedParticle* packed;
-    const double* base;            ///< address of the first packed particle
-    const std::int32_t* firstOwn;  ///< sorted indices of the own particles
+    const double* base;  ///< address of the first packed particle
     hn::Vec<decltype(kIndices)> ownIndices;
     Loaded<V, V> own;
 
     DoubleLanes(const std::vector<PackedParticle>& all, const std::int32_t* indices)
-        : packed(all.data()), base(&packed->x), firstOwn(indices), ownIndices(hn::LoadU(kIndices, indices)) {
+        : base(&all.front().x), ownIndices(hn::LoadU(kIndices, indices)) {
         own = load<true>(indices);
     }
 
     template <bool needsVelocity>
     Loaded<V, V> load(const std::int32_t* indices) const {
         const Fields<double> xyzu = fieldsOf(base, kStride, indices);
-        const Fields<double> vwr = fieldsOf(base + 4, kStride, indices);
+        const Fields<double> vw = fieldsOf(base + 4, kStride, indices);
         const V zero = hn::Zero(kTag);
-        return {
-            .position = {xyzu.first, xyzu.second, xyzu.third},
-            .velocity = needsVelocity ? Vector3<V>{xyzu.fourth, vwr.first, vwr.second} : Vector3<V>{zero, zero, zero},
-            .radius = vwr.third};
+        return {{xyzu.first, xyzu.second, xyzu.third},
+                needsVelocity ? Vector3<V>{xyzu.fourth, vw.first, vw.second} : Vector3<V>{zero, zero, zero}};
     }
 
-    std::uint32_t ownMaterial(std::size_t lane) const { return packed[firstOwn[lane]].material; }
+    Traits<double> traits(const std::int32_t* indices) const {
+        constexpr WholeTag<double> kWhole{};
+        const Fields<double> fields = fieldsOf(base + 4, kStride, indices);
+        // The material is the lower half of the last eight bytes.
+        return {fields.third, hn::And(hn::BitCast(kWhole, fields.fourth), hn::Set(kWhole, 0xFFFFFFFF))};
+    }
 
     /// The pairs of the own particles and the neighbors `others`, which were loaded for these indices.
     template <bool needsVelocity>
@@ -172,22 +186,18 @@ struct FloatLanes {
     using T = float;
     using V = Lanes<float>;
     static constexpr Tag<float> kTag{};
-    static constexpr hn::Rebind<std::int32_t, Tag<float>> kWhole{};
-    using I = hn::Vec<decltype(kWhole)>;
+    static constexpr WholeTag<float> kWhole{};
+    using I = Whole<float>;
     static constexpr std::int64_t kStride = sizeof(PackedParticleFloat) / sizeof(float);
 
     const PackedFloats& all;
-    const PackedParticleFloat* packed;
-    const float* base;             ///< address of the first packed particle; its positions are bits of integers
-    const std::int32_t* firstOwn;  ///< sorted indices of the own particles
+    const float* base;  ///< address of the first packed particle; its positions are bits of integers
     I ownIndices;
     Loaded<I, V> own;
 
     FloatLanes(const PackedFloats& floats, const std::int32_t* indices)
         : all(floats),
-          packed(floats.particles.data()),
-          base(reinterpret_cast<const float*>(packed)),
-          firstOwn(indices),
+          base(reinterpret_cast<const float*>(floats.particles.data())),
           ownIndices(hn::LoadU(kWhole, indices)) {
         own = load<true>(indices);
     }
@@ -195,15 +205,17 @@ struct FloatLanes {
     template <bool needsVelocity>
     Loaded<I, V> load(const std::int32_t* indices) const {
         const auto whole = [](V bits) { return hn::BitCast(kWhole, bits); };
-        const Fields<float> xyzr = fieldsOf(base, kStride, indices);
+        const Fields<float> xyz = fieldsOf(base, kStride, indices);
         const Fields<float> uvw = fieldsOf(base + 4, kStride, indices);
         const V zero = hn::Zero(kTag);
-        return {.position = {whole(xyzr.first), whole(xyzr.second), whole(xyzr.third)},
-                .velocity = needsVelocity ? Vector3<V>{uvw.first, uvw.second, uvw.third} : Vector3<V>{zero, zero, zero},
-                .radius = xyzr.fourth};
+        return {{whole(xyz.first), whole(xyz.second), whole(xyz.third)},
+                needsVelocity ? Vector3<V>{uvw.first, uvw.second, uvw.third} : Vector3<V>{zero, zero, zero}};
     }
 
-    std::uint32_t ownMaterial(std::size_t lane) const { return packed[firstOwn[lane]].material; }
+    Traits<float> traits(const std::int32_t* indices) const {
+        return {fieldsOf(base, kStride, indices).fourth,
+                hn::BitCast(kWhole, fieldsOf(base + 4, kStride, indices).fourth)};
+    }
 
     /// The pairs of the own particles and the neighbors `others`, which were loaded for these indices.
     template <bool needsVelocity>

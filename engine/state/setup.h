@@ -56,8 +56,7 @@ struct Setup {
     double error = 1e-2;  ///< position error that the automatic stepper aims at, radii per second of motion
     double solverTolerance = 1e-4;  ///< relative residual at which the implicit steppers' solver stops
     ForceMethod forces = ForceMethod::grid;
-    Precision precision =
-        Precision::doubles;  ///< precision of the pair forces where all particles are of one material and one radius
+    Precision precision = Precision::doubles;  ///< precision of the pair forces; see PairTraversal::hasLanes()
     std::uint64_t seed = 1;
 };
 

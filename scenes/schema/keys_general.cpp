@@ -48,7 +48,8 @@ std::vector<Key> physicsKeys() {
             .defaultsTo("0.0001")
             .within(kOpenUnitInterval),
         key("precision", Type::choice, "",
-            "arithmetic of the pair forces, where all particles are alike; the state is always double")
+            "arithmetic of the pair forces, unless more than 64 materials have different laws; the state is always "
+            "double")
             .defaultsTo("\"double\"")
             .oneOf({"double", "float"}),
         key("forces", Type::choice, "",

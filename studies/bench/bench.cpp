@@ -87,8 +87,7 @@ BenchRow forcesRow(const Subject& subject, Precision precision, const BenchSetti
     BenchRow row = subject.row;
     row.name = "forces";
     row.precision = precision;
-    if (precision == Precision::singles)
-        row.bytesPerParticle = subject.rowBytes + sizeof(engine::PackedParticleFloat) + sizeof(engine::PackedIdentity);
+    if (precision == Precision::singles) row.bytesPerParticle = subject.rowBytes + sizeof(engine::PackedParticleFloat);
     row.seconds = measured(work, settings);
     row.stateHash = hashOf(forces);
     return row;

@@ -120,8 +120,7 @@ TEST_CASE("Packed particles are those of the list's order", "[simd]") {
         CHECK(packedFloat.particles[k].vz == static_cast<float>(v.z()));
         CHECK(packedFloat.particles[k].radius == static_cast<float>(particles.radius[p]));
         CHECK(packedFloat.particles[k].material == particles.material[p]);
-        CHECK(packedFloat.identities[k].id == particles.id[p]);
-        CHECK(packedFloat.identities[k].lowBits == positionBits(x));
+        CHECK(packedFloat.id(k) == particles.id[p]);
     }
 }
 
