@@ -2,6 +2,7 @@
 #include "engine/forces/force_field.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "engine/core/parallel.h"
@@ -23,6 +24,18 @@ bool allEqual(const std::vector<double>& numbers) {
         const double* const first = numbers.data() + begin;
         return std::memcmp(first, first + 1, (end - begin) * sizeof(double)) == 0;
     });
+}
+
+/// The largest of some numbers above 0; 0 if there are none. Eight running maxima take a vector instruction for several
+/// numbers; std::max_element would take some hundredths of the time of the forces.
+double largestOf(const std::vector<double>& numbers) {
+    std::array<double, 8> largest = {};
+    const std::size_t whole = numbers.size() - numbers.size() % largest.size();
+    for (std::size_t k = 0; k < whole; k += largest.size())
+        for (std::size_t lane = 0; lane < largest.size(); ++lane)
+            largest[lane] = largest[lane] < numbers[k + lane] ? numbers[k + lane] : largest[lane];
+    for (std::size_t k = whole; k < numbers.size(); ++k) largest[0] = std::max(largest[0], numbers[k]);
+    return *std::ranges::max_element(largest);
 }
 
 }  // namespace
@@ -66,7 +79,7 @@ ForceTerms termsFor(const ForceField& field, const Particles& particles) {
     }
     const std::vector<double>& radii = particles.radius;
     terms.oneRadius = allEqual(radii);
-    const double largest = radii.empty() ? 0.0 : terms.oneRadius ? radii.front() : *std::ranges::max_element(radii);
+    const double largest = radii.empty() ? 0.0 : terms.oneRadius ? radii.front() : largestOf(radii);
     terms.cutoff = cutoffRatio(field.materials) * 2.0 * largest;
     return terms;
 }

@@ -11,12 +11,13 @@ namespace studies {
 namespace {
 
 /// Most lattices have neighbors at the rest length; one has the spacing of a solid that has settled under its own
-/// attraction, as measured in scenes/library/solid.toml.
+/// attraction, as measured in scenes/library/solid.toml. That of unequal radii has as many neighbors within the cutoff
+/// as the liquid: at the rest length it would have half as many again, because the fourth shell lies at the cutoff.
 constexpr std::array kPackings = {Packing{"solid", "solid"},
                                   Packing{"settled solid", "solid", 0.76},
                                   Packing{"melt", "solid", 1.0, Differences::sixteenLaws},
                                   Packing{"liquid", "liquid"},
-                                  Packing{"unequal", "liquid", 1.0, Differences::radii},
+                                  Packing{"unequal", "liquid", 1.2, Differences::radii},
                                   Packing{"powder", "powder"},
                                   Packing{"two powders", "powder", 1.0, Differences::twoLaws}};
 
