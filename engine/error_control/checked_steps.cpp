@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/error_control/step_control.h"
 #include "engine/error_control/step_cost.h"
 #include "engine/state/state_checks.h"
 #include "engine/stepping/population.h"
@@ -72,7 +73,8 @@ class History {
 
 }  // namespace
 
-bool advanceChecked(Simulation& simulation, double time, double longest, StepLimit reason, double mostEvaluations) {
+bool advanceChecked(Simulation& simulation, double time, double longest, StepLimit reason, double mostEvaluations,
+                    ErrorControl* errors) {
     History history;
     int rejectedInRow = 0;
     emitDue(simulation);
@@ -84,13 +86,20 @@ bool advanceChecked(Simulation& simulation, double time, double longest, StepLim
         StepRestriction& restriction = simulation.restriction;
         const double stop = nextStop(simulation, time);
         const double remaining = stop - simulation.time;
-        const double allowed = std::min(longest, restriction.seconds);
+        const double wanted = errors == nullptr ? longest : std::min(longest, errors->steps.step);
+        const double allowed = std::min(wanted, restriction.seconds);
         const double count = stepCount(remaining, allowed);
         const double h = remaining / count;
         history.add(simulation);
         takeStep(simulation, h);
         if (count == 1.0 && stop == time) checkIntervalEnd(simulation);
-        if (const auto rejection = rejectionReason(simulation, history.latest())) {
+        std::optional<StepLimit> rejection = rejectionReason(simulation, history.latest());
+        std::optional<double> estimate;
+        if (errors != nullptr && !rejection) {
+            estimate = estimateStep(simulation, history.latest(), h);
+            if (estimate && isRefused(errors->steps, *estimate, errors->wanted)) rejection = StepLimit::error;
+        }
+        if (rejection) {
             if (h < kShortestStep) reportInstability(simulation, h);
             // Two rejections in a row suggest that the previous step, although accepted, was bad.
             history.goBack(simulation, ++rejectedInRow % 2 == 0);
@@ -100,7 +109,11 @@ bool advanceChecked(Simulation& simulation, double time, double longest, StepLim
             continue;
         }
         rejectedInRow = 0;
-        record(simulation.steps, h, restriction.seconds < longest ? restriction.reason : reason, simulation.stepper);
+        record(simulation.steps, h, restriction.seconds < wanted ? restriction.reason : reason, simulation.stepper);
+        if (estimate) {
+            errors->estimate += h * *estimate;
+            control(errors->steps, simulation.stepper, h, *estimate, errors->wanted);
+        }
         simulation.time = count == 1.0 ? stop : simulation.time + h;
         emitDue(simulation);
         if (++restriction.passed % kAcceptedBeforeLonger == 0) restriction.seconds *= 2.0;

@@ -19,7 +19,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian");
 
 /// Version of the checkpoint format: kCheckpointMark in ASCII and a digit, another for every change of what is stored.
-constexpr std::uint64_t kFormat = 0x38504B434C424C47;
+constexpr std::uint64_t kFormat = 0x39504B434C424C47;
 
 constexpr std::size_t kChecksumBytes = 8;
 
@@ -136,9 +136,14 @@ void exchangeEmitters(Archive& archive, Emitters& emitters) {
 
 template <class Archive, class State>
 void exchangeAutomatic(Archive& archive, State& state) {
-    for (auto& choice : state.choices) archive(choice.step, choice.cost, choice.reason, choice.growth, choice.followed);
-    archive(state.intervalCount, state.nextEstimate, state.estimateCount, state.errorSum, state.largestError);
-    archive(state.rmsAcceleration, state.estimateCost);
+    for (auto& steps : state.controls)
+        archive(steps.step, steps.stepBefore, steps.ratioBefore, steps.calibration, steps.isCalibrated);
+    auto& twin = state.twin;
+    archive(twin.exists, twin.stepper, twin.start, twin.end, twin.step, twin.nextStep, twin.estimate, twin.cost);
+    archive(twin.position, twin.id, twin.runSteps, twin.runCost, twin.runEstimate);
+    archive(state.intervalCount, state.twinCount, state.nextTwin, state.nextCandidate, state.stepAtTwin);
+    archive(state.runCostPerSecond);
+    archive(state.estimateCount, state.errorSum, state.largestError, state.estimateCost);
 }
 
 template <class Archive, class Statistics>
@@ -158,7 +163,7 @@ void exchange(Archive& archive, State& simulation) {
     archive(simulation.removedCount, simulation.largestCountBeforeRemoval, simulation.time, simulation.stepper);
     archive(simulation.cache->forces, simulation.cache->forcesCurrent);
     exchangeOptional(archive, simulation.cache->energy);
-    archive(simulation.cache->kinetic);
+    archive(simulation.cache->kinetic, simulation.cache->meanAccelerations, simulation.cache->lastStep);
     archive(simulation.restriction.seconds, simulation.restriction.reason, simulation.restriction.passed);
     exchangeAutomatic(archive, simulation.automatic);
     exchangeStatistics(archive, simulation.steps);

@@ -41,7 +41,7 @@ std::size_t peakBytesOfMaterials(const Simulation& simulation) {
     constexpr std::size_t kLists = 3;  // in the setup, the force field and the traversal of pairs
     const std::size_t count = simulation.setup.materials.size();
     const std::size_t run = (kLists * count + tabulatedCount(count)) * sizeof(Material);
-    return simulation.setup.stepper == StepperKind::automatic ? (1 + kRunsOfEstimate) * run : run;
+    return simulation.setup.stepper == StepperKind::automatic ? (1 + kTrialRuns) * run : run;
 }
 
 std::size_t peakBytes(const Simulation& simulation) {
@@ -59,7 +59,7 @@ std::size_t peakBytes(const Simulation& simulation) {
         case StepperKind::automatic:
             break;
     }
-    return (1 + kRunsOfEstimate) * run + 2 * (before + bytesOfMatrix(simulation));
+    return (1 + kTrialRuns) * run + 2 * (before + bytesOfMatrix(simulation));
 }
 
 }  // namespace engine

@@ -55,24 +55,45 @@ struct StepRestriction {
     std::uint32_t passed = 0;  ///< number of accepted steps since the restriction was set
 };
 
-/// What the automatic stepper knows of one of the steppers among which it chooses.
-struct AutoChoice {
-    double step = 0.0;  ///< step that just meets the wanted error, s; 0 before the first estimate
-    double cost = std::numeric_limits<double>::infinity();  ///< cost at that step, force evaluations per second
-    StepLimit reason = StepLimit::error;                    ///< reason why the step is not longer
-    double growth = 1.0;                                    ///< factor by which errors grow beyond one interval
-    bool followed = false;  ///< whether the growth was measured with this stepper, not taken from another
+/// How the automatic stepper controls the steps of one stepper; see error_control/step_control.h.
+struct StepControl {
+    double step = 0.0;         ///< step that is wanted, s; 0 before the stepper is first used
+    double stepBefore = 0.0;   ///< step before the last change, s; 0 if there was none
+    double ratioBefore = 1.0;  ///< wanted over estimated error of the last step
+    double calibration = 1.0;  ///< measured error over the estimate that single steps give
+    bool isCalibrated = false;
+};
+
+/// A trial run that has gone ahead of the run, and with which the run is compared when it gets as far.
+struct TwinRun {
+    bool exists = false;
+    StepperKind stepper = StepperKind::velocityVerlet;
+    double start = 0.0;             ///< s
+    double end = 0.0;               ///< s
+    double step = 0.0;              ///< mean step, s
+    double nextStep = 0.0;          ///< step that was wanted at the end, s
+    double estimate = 0.0;          ///< mean of the estimates of its steps, without calibration, radii per second
+    double cost = 0.0;              ///< force evaluations per second of motion
+    std::vector<Vec3> position;     ///< at the end, m
+    std::vector<std::uint32_t> id;  ///< of the particles at the end, ascending
+    double runSteps = 0.0;          ///< number of steps that the run had taken at the start
+    double runCost = 0.0;           ///< what the run had cost at the start, force evaluations
+    double runEstimate = 0.0;       ///< integral of the estimates of the run's steps since the start, radii
 };
 
 struct AutoState {
-    std::array<AutoChoice, kStepperKinds> choices;  ///< candidates, by StepperKind
-    std::uint64_t intervalCount = 0;                ///< number of intervals run so far
-    std::uint64_t nextEstimate = 0;                 ///< index of the interval of the next error estimate
-    std::uint64_t estimateCount = 0;                ///< number of error estimates so far
-    double errorSum = 0.0;                          ///< sum of the error estimates, radii per second
-    double largestError = 0.0;                      ///< largest error estimate, radii per second
-    double rmsAcceleration = 0.0;  ///< RMS of the acceleration other than gravity at the last estimate, m/s^2
-    double estimateCost = 0.0;     ///< force evaluations spent on error estimates and not used by the run
+    std::array<StepControl, kStepperKinds> controls;  ///< by StepperKind
+    TwinRun twin;
+    std::uint64_t intervalCount = 0;  ///< number of intervals run so far
+    std::uint64_t twinCount = 0;      ///< number of twins so far
+    std::uint64_t nextTwin = 0;       ///< index of the interval in which the next twin starts
+    std::uint64_t nextCandidate = 0;  ///< index of the interval from which the next twin may be of another stepper
+    double runCostPerSecond = 0.0;    ///< cost of the last interval, force evaluations per second of motion
+    double stepAtTwin = 0.0;          ///< step that was wanted when the last twin started, s
+    std::uint64_t estimateCount = 0;  ///< number of intervals with an error estimate so far
+    double errorSum = 0.0;            ///< sum of the error estimates of intervals, radii per second
+    double largestError = 0.0;        ///< largest error estimate of an interval, radii per second
+    double estimateCost = 0.0;        ///< force evaluations spent on twins
 };
 
 /// How far scaled walls let particles in, measured at the ends of frames.

@@ -166,6 +166,7 @@ void restore(Simulation& simulation, const SavedState& saved) {
     cache.energy = saved.energy;
     cache.kinetic = saved.kinetic;
     cache.groupEnergies = saved.groupEnergies;
+    cache.meanAccelerations.clear();
     const StepStatistics spent = simulation.steps;
     simulation.steps = saved.steps;
     simulation.steps.forceEvaluations = spent.forceEvaluations;

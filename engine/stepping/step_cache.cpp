@@ -11,6 +11,7 @@ void StepCache::invalidate() {
     evaluator.forgetList();
     evaluator.setGroups({});
     groupEnergies.clear();
+    meanAccelerations.clear();
 }
 
 StepCachePointer::StepCachePointer() : cache_(std::make_unique<StepCache>()) {}

@@ -51,6 +51,12 @@ struct StepCache {
     /// obstacles. The next search for such a particle begins with it.
     Scratch<std::vector<std::uint32_t>> cachedNeighbors;
 
+    double predictionError = 0.0;  ///< RMS of velocity Verlet's error in predicting velocities, radii per second
+    /// Mean accelerations of the particles over the last step, m/s^2, and its length, s. For the steppers that estimate
+    /// their error from their change; empty where the last step was taken back.
+    std::vector<Vec3> meanAccelerations;
+    double lastStep = 0.0;
+
     Scratch<std::vector<Vec3>> predictedVelocities;  ///< velocities from which velocity Verlet computes damping, m/s
     Scratch<ImplicitScratch> implicit;
 

@@ -2,6 +2,9 @@
 // next.
 #include "engine/stepping/velocity_verlet.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "engine/core/exp_negative.h"
 #include "engine/core/parallel.h"
 #include "engine/state/state_checks.h"
@@ -17,6 +20,18 @@ double evaluateForces(Simulation& simulation, const std::vector<Vec3>& velocitie
     ++simulation.steps.forceEvaluations;
     return simulation.cache->evaluator.evaluateFree(simulation.particles, velocities, simulation.cache->forces, h);
 }
+
+/// What is summed over the particles at the end of a step.
+struct EndOfStep {
+    ParticleEnergy own;
+    double predictionErrorSq = 0.0;  ///< squares of the differences between velocity and prediction, 1/s^2, in radii
+
+    EndOfStep& operator+=(const EndOfStep& other) {
+        own += other.own;
+        predictionErrorSq += other.predictionErrorSq;
+        return *this;
+    }
+};
 
 /// Change of a particle's velocity by half a kick with this force (N), m/s.
 Vec3 halfKick(const Particles& particles, std::size_t p, double h, const Vec3& force) {
@@ -50,14 +65,18 @@ void velocityVerletStep(Simulation& simulation, double h, double lambda) {
     recordHeld(simulation);
     if (!isValid(particles)) return markInvalid(simulation);
     const double pairEnergy = evaluateForces(simulation, predicted, h);
-    // The second half of the kick, and each particle's energy after it, in one loop.
-    const ParticleEnergy own = sumOver<ParticleEnergy>(particles.count(), [&](std::size_t p) {
+    // The second half of the kick, and what is summed after it, in one loop.
+    const EndOfStep sums = sumOver<EndOfStep>(particles.count(), [&](std::size_t p) {
         const ContactSums contacts = resolvedContacts(simulation, p, predicted[p]);
         particles.velocity[p] += halfKick(particles, p, h, simulation.cache->forces[p] + contacts.force);
-        return particleEnergy(simulation, p, contacts.energy);
+        const double radius = particles.radius[p];
+        const double errorSq = squaredLength(particles.velocity[p] - predicted[p]) / (radius * radius);
+        return EndOfStep{particleEnergy(simulation, p, contacts.energy), errorSq};
     });
     simulation.cache->forcesCurrent = true;
-    recordEnergy(simulation, own, pairEnergy);
+    simulation.cache->predictionError =
+        std::sqrt(sums.predictionErrorSq / static_cast<double>(std::max<std::size_t>(1, particles.count())));
+    recordEnergy(simulation, sums.own, pairEnergy);
 }
 
 }  // namespace engine

@@ -35,11 +35,10 @@ engine::Simulation begin(const Window& window, const Variant& variant) {
 void chooseStepper(const Window& window, engine::Simulation& simulation) {
     engine::Simulation scout = simulation;
     scenes::advanceToFrame(window.scene, scout, window.firstFrame + 1);
-    const engine::AutoChoice& chosen = scout.automatic.choices[static_cast<std::size_t>(scout.stepper)];
-    if (chosen.step <= 0.0) return;  // without particles there was nothing to choose
+    if (scout.particles.count() == 0) return;  // there was nothing to choose
     simulation.automatic = scout.automatic;
-    simulation.automatic.nextEstimate = simulation.automatic.intervalCount + engine::kLongestPause / 2;
-    simulation.automatic.estimateCount = engine::kLongestPause;
+    simulation.automatic.twin = {};
+    simulation.automatic.nextTwin = simulation.automatic.intervalCount + engine::kLongestPause / 2;
     simulation.automatic.estimateCost = 0.0;
     simulation.stepper = scout.stepper;
 }

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "engine/error_control/long_error_estimate.h"
+#include "engine/error_control/twin.h"
 #include "engine/forces/simd_forces.h"
 #include "engine/run/diagnostics.h"
 #include "engine/run/strays.h"
@@ -75,9 +75,9 @@ Json errorJson(const engine::Simulation& simulation, const engine::ErrorSamples&
                  {"force_evaluations_spent", errors.evaluationCost}};
     if (simulation.setup.stepper == engine::StepperKind::automatic) {
         json["obtained"] = fmt::format(
-            "frames run again at half the step, times what up to {} s of motion make of an error: mean and largest "
-            "over the samples",
-            engine::kLongEstimateSeconds);
+            "every step's own estimate, calibrated by trial runs of {} s with longer steps: mean and largest over the "
+            "frames",
+            engine::kTwinSeconds);
         json["wanted"] = simulation.setup.error;
     }
     return json;

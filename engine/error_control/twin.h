@@ -1,0 +1,37 @@
+// Trial runs that go ahead of the run, with longer steps or with another stepper. When the run gets as far it is
+// compared with them, which tells how far both are from the true motion: the estimates of single steps know neither how
+// errors grow by collisions nor how they shrink by damping. Used by the automatic stepper.
+#pragma once
+
+#include "engine/state/simulation.h"
+
+namespace engine {
+
+/// Duration of a twin, s, rounded up to whole intervals, of which it has at most kMostTwinIntervals. Chosen: as long as
+/// an impact takes, and short enough that later collisions do not multiply the errors of the impact.
+inline constexpr double kTwinSeconds = 0.2;
+inline constexpr double kMostTwinIntervals = 12.0;
+
+/// Factor by which the steps of a twin of the stepper in use are longer than those of the run.
+inline constexpr double kTwinFactor = 1.5;
+
+/// Starts a twin of the stepper in use. Its steps are controlled like those of the run, for a larger error.
+/// @param interval  length of an interval, s
+void sendTwin(Simulation& simulation, double interval);
+
+/// Starts a twin of another stepper, which is given up, and leaves no twin, when it has cost as much as the run will.
+/// @param mostPerSecond  what the run costs, force evaluations per second of motion
+void sendCandidate(Simulation& simulation, StepperKind stepper, double interval, double mostPerSecond);
+
+/// What a twin has taught about the run, when the run has got as far.
+struct Comparison {
+    double distance = 0.0;  ///< RMS distance of the particles of the two, radii per second of motion
+    double step = 0.0;      ///< mean step of the run, s
+    double estimate = 0.0;  ///< mean estimate of the run's steps, without calibration, radii per second
+    double cost = 0.0;      ///< of the run, force evaluations per second of motion
+};
+
+/// Compares the run, which has got to the end of the twin.
+Comparison compareWithTwin(const Simulation& simulation);
+
+}  // namespace engine
