@@ -87,8 +87,8 @@ void judgeCandidate(Simulation& simulation, const Comparison& compared, double i
     const TwinRun& twin = simulation.automatic.twin;
     if (!(compared.distance > 0.0)) return;
     constexpr double kMostChange = 3.0;  // beyond it the error no longer follows a power of the step; chosen
-    const double change = std::clamp(stepRatio(twin.stepper, simulation.setup.error / compared.distance),
-                                     1.0 / kMostChange, kMostChange);
+    const double change =
+        std::clamp(stepRatio(twin.stepper, simulation.setup.error / compared.distance), 1.0 / kMostChange, kMostChange);
     const double step = std::min(twin.step * change, interval);
     if (twin.cost * twin.step / step > kWorthwhile * compared.cost) return;
     StepControl& steps = controlOf(simulation, twin.stepper);

@@ -32,7 +32,8 @@ bool runAhead(Simulation& ahead, ErrorControl& errors, double interval, double m
     twin.nextStep = errors.steps.step;
     twin.estimate = errors.estimate / seconds;
     twin.cost = forceEvaluationsOf(ahead) / seconds;
-    // Particles that are emitted on the way are not compared: one that finds no room in the twin gives its id to the next.
+    // Particles that are emitted on the way are not compared: one that finds no room in the twin gives its id to the
+    // next.
     const auto known = std::ranges::lower_bound(ahead.particles.id, firstNew) - ahead.particles.id.begin();
     twin.position.assign(ahead.particles.position.begin(), ahead.particles.position.begin() + known);
     twin.id.assign(ahead.particles.id.begin(), ahead.particles.id.begin() + known);

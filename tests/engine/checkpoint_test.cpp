@@ -222,13 +222,10 @@ TEST_CASE("A checkpoint of a state that no run leads to is refused", "[checkpoin
     CHECK(complaintAfter([](Simulation& s) { s.stepper = StepperKind::symplecticEuler; }) == steps);
     CHECK(complaintAfter([](Simulation& s) { s.restriction.seconds = 1e-300; }) == steps);
     CHECK(complaintAfter([&](Simulation& s) { s.restriction.seconds = nan; }) == steps);
-    CHECK(complaintAfter([](Simulation& s) { s.automatic.choices[1].step = 1e-300; }) == steps);
-    CHECK(complaintAfter([&](Simulation& s) { s.automatic.choices[1].cost = nan; }) == steps);
-    CHECK(complaintAfter([&](Simulation& s) { s.automatic.choices[1].growth = nan; }) == steps);
-    CHECK(complaintAfter([](Simulation& s) {
-              s.automatic.choices = {};
-              s.automatic.nextEstimate = s.automatic.intervalCount + 1;
-          }) == steps);
+    CHECK(complaintAfter([](Simulation& s) { s.automatic.controls[1].step = 1e-300; }) == steps);
+    CHECK(complaintAfter([&](Simulation& s) { s.automatic.controls[1].ratioBefore = nan; }) == steps);
+    CHECK(complaintAfter([&](Simulation& s) { s.automatic.controls[1].calibration = nan; }) == steps);
+    CHECK(complaintAfter([](Simulation& s) { s.automatic.twin.id.push_back(0); }) == steps);
 
     CHECK(complaintAfter([&](Simulation& s) { s.particles.velocity[0].y() = nan; }) == "a velocity is not finite");
 }

@@ -32,12 +32,12 @@ engine::Setup setupOf(engine::StepperKind stepper) {
 /// time.
 bool isPlausible(const engine::Simulation& simulation) {
     const auto& velocities = simulation.particles.velocity;
-    const auto& choices = simulation.automatic.choices;
+    const auto& controls = simulation.automatic.controls;
     return simulation.time < 1e4 &&
            std::all_of(velocities.begin(), velocities.end(),
                        [](const engine::Vec3& velocity) { return engine::squaredLength(velocity) < 1e4; }) &&
-           std::all_of(choices.begin(), choices.end(),
-                       [](const engine::AutoChoice& choice) { return choice.step == 0.0 || choice.step > 1e-6; });
+           std::all_of(controls.begin(), controls.end(),
+                       [](const engine::StepControl& steps) { return steps.step == 0.0 || steps.step > 1e-6; });
 }
 
 void tryToAdvance(engine::StepperKind stepper, const std::vector<std::uint8_t>& bytes) {

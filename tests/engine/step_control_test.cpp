@@ -1,0 +1,137 @@
+// What single steps tell of their errors, the filter that makes steps of it, and the comparison with a twin.
+#include "engine/error_control/step_control.h"
+
+#include <algorithm>
+#include <cmath>
+#include "tests/catch.h"
+
+#include "engine/error_control/checked_steps.h"
+#include "engine/error_control/twin.h"
+#include "engine/run/advance.h"
+#include "engine/run/diagnostics.h"
+#include "engine/stepping/take_step.h"
+#include "tests/engine/runs.h"
+
+using namespace engine;
+
+namespace {
+
+/// A pressed lattice that flies apart, without damping.
+Setup flyingApart() {
+    Material material = *materialPreset("liquid");
+    material.damping = 0.0;
+    Setup setup = runs::freeSetup(material, StepperKind::velocityVerlet, 0.01);
+    runs::addPacking(setup, {4, 4, 4});
+    for (Vec3& position : setup.initial.position) position *= 0.9;
+    return setup;
+}
+
+double rms(const Particles& a, const Particles& b) {
+    return runs::rmsDistance(a, b) / a.radius[0];
+}
+
+/// The estimate of the last of two steps of h seconds, over the local error of that step, radii per second.
+double estimateOverError(StepperKind stepper, double h) {
+    Setup setup = flyingApart();
+    setup.stepper = stepper;
+    setup.step = h;
+    setup.solverTolerance = 1e-12;
+    Simulation simulation = start(setup);
+    SavedState before;
+    for (int k = 1; k <= 2; ++k) {
+        save(simulation, before);
+        ErrorControl errors{{.step = h}, 1e9};
+        CHECK(advanceChecked(simulation, k * h, h, StepLimit::error, 1e9, &errors));
+        if (k == 1) continue;
+        Setup fine = setup;
+        fine.initial.position = before.position;
+        fine.initial.velocity = before.velocity;
+        fine.stepper = StepperKind::velocityVerlet;
+        fine.step = h / 64;
+        Simulation reference = start(fine);
+        advance(reference, h);
+        return errors.estimate / h / (rms(simulation.particles, reference.particles) / h);
+    }
+    return 0.0;
+}
+
+}  // namespace
+
+TEST_CASE("The estimate of a step is its local error", "[step-control]") {
+    for (const StepperKind stepper : {StepperKind::velocityVerlet, StepperKind::linearlyImplicit})
+        for (const double h : {0.004, 0.002}) {
+            const double ratio = estimateOverError(stepper, h);
+            INFO(nameOf(stepper) << ", h " << h << ": " << ratio);
+            CHECK(ratio > 0.5);
+            CHECK(ratio < 4.0);  // a constant of the stepper, which the calibration finds
+        }
+    // The constant is the same for all steps.
+    CHECK(estimateOverError(StepperKind::velocityVerlet, 0.004) ==
+          Approx(estimateOverError(StepperKind::velocityVerlet, 0.002)).epsilon(0.1));
+}
+
+TEST_CASE("The filter holds a step that is right and corrects one that is not", "[step-control]") {
+    const auto steady = [](double first, double errorAtOne) {
+        StepControl steps{.step = first};
+        for (int k = 0; k < 60; ++k)
+            control(steps, StepperKind::velocityVerlet, steps.step, errorAtOne * steps.step * steps.step, 0.1);
+        return steps.step;
+    };
+    // An error of 1000 h^2 is 0.1 at h = 0.01.
+    CHECK(steady(0.01, 1000.0) == Approx(0.01).epsilon(1e-12));
+    CHECK(steady(0.1, 1000.0) == Approx(0.01).epsilon(0.01));
+    CHECK(steady(1e-5, 1000.0) == Approx(0.01).epsilon(0.01));
+
+    StepControl steps{.step = 0.01};
+    control(steps, StepperKind::velocityVerlet, 0.01, 10.0, 0.1);  // an impact
+    CHECK(steps.step == Approx(0.01 / 3.0));
+    steps = {.step = 0.01};
+    control(steps, StepperKind::velocityVerlet, 0.01, 0.0, 0.1);
+    CHECK(steps.step == Approx(0.02));
+    steps = {.step = 0.01};
+    control(steps, StepperKind::velocityVerlet, 0.0005, 1e-9, 0.1);  // an emission ended it
+    CHECK(steps.step == 0.01);
+    steps = {.step = 0.01};
+    control(steps, StepperKind::velocityVerlet, 0.005, 0.025, 0.1);  // half as long, a quarter of the error
+    CHECK(steps.step == Approx(0.01));
+    CHECK(isRefused({.calibration = 2.0, .isCalibrated = true}, 0.6, 0.1));
+    CHECK_FALSE(isRefused({.calibration = 2.0, .isCalibrated = true}, 0.4, 0.1));
+    CHECK_FALSE(isRefused({.calibration = 2.0}, 0.6, 0.1));
+}
+
+TEST_CASE("A twin does not change the run, and tells its error", "[step-control]") {
+    Setup setup = flyingApart();
+    setup.stepper = StepperKind::automatic;
+    setup.error = 0.05;
+    Simulation simulation = start(setup);
+    const double interval = 1.0 / 60;
+    StepControl& steps = simulation.automatic.controls[static_cast<std::size_t>(StepperKind::velocityVerlet)];
+    steps.step = 0.002;
+    const std::string before = stateHash(simulation.particles);
+    sendTwin(simulation, interval);
+    const TwinRun& twin = simulation.automatic.twin;
+    CHECK(stateHash(simulation.particles) == before);
+    CHECK(twin.exists);
+    CHECK(twin.end == Approx(0.2));
+    CHECK(twin.position.size() == simulation.particles.count());
+    CHECK(simulation.automatic.estimateCost > 0.0);
+
+    Setup fixed = setup;
+    fixed.stepper = StepperKind::velocityVerlet;
+    const auto runWith = [&](double step) {
+        fixed.step = step;
+        Simulation run = start(fixed);
+        advance(run, twin.end);
+        return run;
+    };
+    Simulation run = runWith(twin.step / 1.5);
+    run.automatic.twin = twin;
+    const Comparison compared = compareWithTwin(run);
+    CHECK(compared.step == Approx(twin.step / 1.5).epsilon(0.05));
+    const double real = rms(run.particles, runWith(twin.step / 64).particles) / 0.2;
+    const double more = errorRatio(StepperKind::velocityVerlet, twin.step / compared.step);
+    INFO("real " << real << ", found " << compared.distance / (more - 1.0));
+    // The twin's steps vary, so that their mean is not quite the step that counts.
+    CHECK(compared.distance / (more - 1.0) < 2.5 * real);
+    CHECK(compared.distance / (more - 1.0) > real / 2.5);
+}
