@@ -48,7 +48,7 @@ constexpr double kFarBelow = 0.25;
 constexpr double kWorthwhile = 0.8;
 
 /// Limits on calibrations. Measured: in the scenes of the library they lie between 0.05 and 10.
-constexpr double kLeastCalibration = 0.02;
+constexpr double kLeastCalibration = 0.1;
 constexpr double kMostCalibration = 50.0;
 
 /// Velocity that the implicit steppers' solver may leave out, as a share of the wanted error divided by kErrorHorizon.

@@ -17,7 +17,7 @@ namespace {
 /// A small step near an obstacle may cover this fraction of the distances to the barrier and to the repulsor, and may
 /// last this fraction of the contact's 1/frequency. Measured: rebounds of 0.01 to 1 kg at 1 to 1000 m/s are within 0.5
 /// % of those at a tenth of this fraction.
-constexpr double kFraction = 0.1;
+constexpr double kFraction = 0.07;
 
 /// In a step that covers less than this share of a contact's depth, the contact may act as a force, without small steps
 /// along the path. Measured on drops and dams: with half or twice this share the errors change by less than the error
