@@ -27,7 +27,7 @@ constexpr double kFirstStep = 1.0 / 8.0;
 constexpr double kLongerImplicit = 3.0;
 
 /// Pause after the first twin, in intervals; it is doubled after each twin up to kLongestPause. Chosen.
-constexpr std::uint64_t kFirstPause = 8;
+constexpr std::uint64_t kFirstPause = 16;
 
 /// The next twin starts early if the step has become shorter by this factor since the last one. Chosen.
 constexpr double kShorter = 0.5;
