@@ -9,9 +9,6 @@
 namespace studies {
 namespace {
 
-/// Runs longer than this (s) are timed only once. Chosen: their time varies little from one run to the next.
-constexpr double kLongRun = 5.0;
-
 /// Short runs are repeated until they have taken kTimed seconds in total, but at most kMostRounds times. Chosen.
 constexpr double kTimed = 0.3;
 constexpr int kMostRounds = 12;
@@ -58,7 +55,7 @@ std::vector<WindowRun> timedRuns(const Window& window, const AccuracySettings& s
         for (std::size_t r = 0; r < runs.size(); ++r) {
             WindowRun& run = runs[r];
             if (!isTimedAgain(run, spent[r], round, settings.rounds)) continue;
-            const WindowRun next = runWindow(window, run.variant, settings.runLimit);
+            const WindowRun next = runWindow(window, run.variant, settings.runLimit, run.leadIn);
             run.seconds = std::min(run.seconds, next.seconds);
             spent[r] += next.seconds;
             listener(next, "again");

@@ -1,12 +1,14 @@
 // Runs a window of a scene with another stepper, frame by frame against the clock. See window_run.h.
 #include "studies/accuracy/window_run.h"
 
-#include <chrono>
+#include <cstdint>
+#include <limits>
+#include <utility>
 
-#include "engine/error_control/auto_stepper.h"
 #include "engine/error_control/step_cost.h"
 #include "engine/stepping/take_step.h"
 #include "scenes/view/frame_view.h"
+#include "studies/common/timing.h"
 
 namespace studies {
 namespace {
@@ -30,17 +32,37 @@ engine::Simulation begin(const Window& window, const Variant& variant) {
     return simulation;
 }
 
-/// Puts the automatic stepper into the middle of a run: it has chosen a stepper and a step for this state, and its next
-/// error estimate is half of the longest pause away. The cost of the choice is not counted.
-void chooseStepper(const Window& window, engine::Simulation& simulation) {
-    engine::Simulation scout = simulation;
-    scenes::advanceToFrame(window.scene, scout, window.firstFrame + 1);
-    if (scout.particles.count() == 0) return;  // there was nothing to choose
-    simulation.automatic = scout.automatic;
-    simulation.automatic.twin = {};
-    simulation.automatic.nextTwin = simulation.automatic.intervalCount + engine::kLongestPause / 2;
+/// Runs the scene with the automatic stepper at a wanted error (radii per second) from its start to the end of a
+/// window.
+/// @throws engine::InstabilityError
+LeadIn leadInTo(const Window& window, double error) {
+    engine::Setup setup = window.scene.setup;
+    setup.stepper = engine::StepperKind::automatic;
+    setup.error = error;
+    engine::Simulation simulation = engine::start(setup);
+    scenes::advanceToFrame(window.scene, simulation, window.firstFrame);
+    LeadIn leadIn{simulation.automatic, simulation.stepper};
+    scenes::advanceToFrame(window.scene, simulation, window.lastFrame);
+    const double cost = engine::forceEvaluationsOf(simulation);
+    leadIn.trialShare = cost > 0.0 ? simulation.automatic.estimateCost / cost : 0.0;
+    leadIn.state.twin = {};
+    return leadIn;
+}
+
+/// Puts the automatic stepper into the state at the end of the lead-in, with no trial run due within the window.
+void follow(const LeadIn& leadIn, engine::Simulation& simulation) {
+    simulation.automatic = leadIn.state;
+    simulation.automatic.nextTwin = std::numeric_limits<std::uint64_t>::max();
     simulation.automatic.estimateCost = 0.0;
-    simulation.stepper = scout.stepper;
+    simulation.stepper = leadIn.stepper;
+}
+
+/// Charges a run with the trial runs that it has not made, at their share of its own cost.
+void charge(WindowRun& run, double trialShare) {
+    const double due = trialShare * (run.evaluationCost - run.errorEstimateCost);
+    if (run.evaluationCost > 0.0) run.seconds *= 1.0 + due / run.evaluationCost;
+    run.errorEstimateCost += due;
+    run.evaluationCost += due;
 }
 
 }  // namespace
@@ -68,19 +90,14 @@ Window openWindow(const scenes::Scene& scene, int firstFrame, int frameCount) {
     return window;
 }
 
-WindowRun runWindow(const Window& window, const Variant& variant, double secondsLimit) {
-    using Clock = std::chrono::steady_clock;
-    engine::Simulation simulation = begin(window, variant);
+WindowRun timeFrames(const scenes::Scene& scene, engine::Simulation& simulation, int firstFrame, int lastFrame,
+                     double secondsLimit, const std::function<void(int)>& afterFrame) {
     WindowRun run;
-    run.variant = variant;
-    Clock::time_point start = Clock::now();
-    const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
     try {
-        if (variant.stepper == engine::StepperKind::automatic) chooseStepper(window, simulation);
-        start = Clock::now();
-        for (int frame = window.firstFrame + 1; frame <= window.lastFrame; ++frame) {
-            scenes::advanceToFrame(window.scene, simulation, frame);
-            if (frame == window.lastFrame || elapsed() <= secondsLimit) continue;
+        for (int frame = firstFrame + 1; frame <= lastFrame; ++frame) {
+            run.seconds += secondsOf([&] { scenes::advanceToFrame(scene, simulation, frame); });
+            if (afterFrame) afterFrame(frame);
+            if (frame == lastFrame || run.seconds <= secondsLimit) continue;
             run.ending = Ending::tooSlow;
             break;
         }
@@ -88,12 +105,29 @@ WindowRun runWindow(const Window& window, const Variant& variant, double seconds
         run.ending = Ending::unstable;
         run.failureMessage = error.what();
     }
-    run.seconds = elapsed();
     run.steps = simulation.steps;
     run.errorEstimateCost = simulation.automatic.estimateCost;
     run.evaluationCost = engine::forceEvaluationsOf(simulation) + run.errorEstimateCost;
     if (run.ending == Ending::finished) run.energy = engine::energy(simulation);
-    run.particles = std::move(simulation.particles);
+    return run;
+}
+
+WindowRun runWindow(const Window& window, const Variant& variant, double secondsLimit, std::optional<LeadIn> leadIn) {
+    const bool isLed = variant.stepper == engine::StepperKind::automatic && window.firstFrame > 0;
+    WindowRun run;
+    try {
+        if (isLed && !leadIn) leadIn = leadInTo(window, variant.asked);
+        engine::Simulation simulation = begin(window, variant);
+        if (isLed) follow(*leadIn, simulation);
+        run = timeFrames(window.scene, simulation, window.firstFrame, window.lastFrame, secondsLimit);
+        if (isLed) charge(run, leadIn->trialShare);
+        run.particles = std::move(simulation.particles);
+    } catch (const engine::InstabilityError& error) {  // of the lead-in
+        run.ending = Ending::unstable;
+        run.failureMessage = error.what();
+    }
+    run.variant = variant;
+    run.leadIn = std::move(leadIn);
     return run;
 }
 

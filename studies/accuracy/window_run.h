@@ -1,6 +1,7 @@
 // A timed run over a window of a scene by any stepper, from one state. The study of accuracy consists of such runs.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,6 +11,9 @@
 #include "scenes/model/scene.h"
 
 namespace studies {
+
+/// Runs longer than this (s) are timed only once. Chosen: their time varies little from one run to the next.
+inline constexpr double kLongRun = 5.0;
 
 /// A range of frames of a scene, and the simulation at the first of them.
 struct Window {
@@ -46,6 +50,13 @@ enum class Ending { finished, unstable, tooSlow };
 
 std::string_view nameOf(Ending ending);
 
+/// What the automatic stepper has learned in a run of its own that has got to a window, and the price of learning.
+struct LeadIn {
+    engine::AutoState state;
+    engine::StepperKind stepper = engine::StepperKind::velocityVerlet;
+    double trialShare = 0.0;  ///< cost of the trial runs over that of the run, from its start to the end of the window
+};
+
 /// A run over a window, and its results.
 struct WindowRun {
     Variant variant;
@@ -56,11 +67,26 @@ struct WindowRun {
     engine::Particles particles;  ///< particles at the end, or when an unfinished run broke off
     engine::Energy energy;        ///< energy at the end of a finished run
 
-    double errorEstimateCost = 0.0;  ///< cost of the automatic stepper's error estimates, in force evaluations
-    double evaluationCost = 0.0;     ///< cost of the whole run, in force evaluations
+    double errorEstimateCost = 0.0;  ///< cost of the automatic stepper's trial runs, in force evaluations
+    double evaluationCost = 0.0;     ///< cost of the whole run, trial runs included, in force evaluations
+    std::optional<LeadIn> leadIn;    ///< of the automatic stepper, in a window that begins later than the scene
 };
 
 /// Runs a window of a scene once. After secondsLimit (s of wall-clock time) it ends at the next frame as too slow.
-WindowRun runWindow(const Window& window, const Variant& variant, double secondsLimit);
+///
+/// The automatic stepper starts as in a run that has got to the window: with the steps, calibrations and stepper of its
+/// lead-in. Its trial runs are some dozens of frames apart, so that a short window holds either none or one that costs
+/// as much as most of the window. The run makes none that is due, and is charged instead, in evaluations and in
+/// seconds, with the share that the lead-in and the window spend on them together. In a window that begins with the
+/// scene it makes all its trial runs, and there is no lead-in.
+/// @param leadIn  that of an earlier run of this variant; made here if there is none
+WindowRun runWindow(const Window& window, const Variant& variant, double secondsLimit,
+                    std::optional<LeadIn> leadIn = {});
+
+/// Advances a simulation frame by frame against the clock to the last frame, and leaves it there. Of the result only
+/// the variant and the particles are not set.
+/// @param afterFrame  called with the number of every frame when it is reached, outside the time
+WindowRun timeFrames(const scenes::Scene& scene, engine::Simulation& simulation, int firstFrame, int lastFrame,
+                     double secondsLimit, const std::function<void(int)>& afterFrame = {});
 
 }  // namespace studies

@@ -14,7 +14,7 @@
 #include "scenes/build/read_scene.h"
 #include "scenes/text/input_error.h"
 #include "studies/accuracy/accuracy.h"
-#include "tools/commands/study_command.h"
+#include "tools/commands/study_accuracy.h"
 #include "tools/pages/study_pages.h"
 #include "tools/run/threads.h"
 #include "tools/system/output_file.h"
@@ -24,13 +24,6 @@ namespace tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct AccuracyOptions : StudyOptions {
-    std::vector<std::string> scenes;
-    std::vector<std::string> overrides;
-    double from = -1.0;   ///< simulated time of the start, s; negative: a share of the still's time
-    double window = 0.0;  ///< simulated length of the runs, s; 0: the default, kWindow
-};
 
 /// Default length of the runs, in seconds of simulated time. Chosen: long enough for an impact, short enough that later
 /// collisions do not multiply its errors.
@@ -75,9 +68,7 @@ Subject parseSubject(const std::string& text, const AccuracyOptions& options) {
         scene = text.substr(0, colon);
         suffix = "-" + seconds + "s";
     }
-    constexpr std::size_t kRoom = 50;  // bytes of a file's name, for the window and what its plot shows
-    subject.name = render::shortenedName(runName({scene, {}, {}}), kRoom) + suffix;
-    std::replace(subject.name.begin(), subject.name.end(), '/', '-');
+    subject.name = subjectName(scene) + suffix;
     subject.scene = load({scene, options.overrides, {}});
     subject.from = options.from >= 0.0 ? options.from : kFromShare * subject.scene.stillTime;
     requireFrames(subject, text);
@@ -103,22 +94,6 @@ studies::AccuracySettings settingsFor(const Subject& subject, const AccuracyOpti
     return settings;
 }
 
-/// Returns a function that reports each run when it is done.
-studies::RunListener runReporter(const AccuracyOptions& options, const std::string& scene) {
-    return [&options, scene](const studies::WindowRun& run, std::string_view purpose) {
-        const std::string stepper = studies::nameOf(run.variant);
-        reportProgress(options,
-                       {{"event", purpose},
-                        {"scene", scene},
-                        {"stepper", stepper},
-                        {"asked", run.variant.asked},
-                        {"ending", studies::nameOf(run.ending)},
-                        {"seconds", run.seconds}},
-                       fmt::format("{}: {} {} {:.4g}, {} steps, {:.3g} s, {}\n", scene, purpose, stepper,
-                                   run.variant.asked, run.steps.count, run.seconds, studies::nameOf(run.ending)));
-    };
-}
-
 std::vector<Subject> subjectsOf(const AccuracyOptions& options) {
     std::vector<Subject> subjects;
     std::set<std::string> names;
@@ -141,15 +116,6 @@ studies::SceneAccuracy measure(const Subject& subject, const AccuracyOptions& op
         throw engine::InstabilityError(subject.name + ": " + error.what());
     }
     return accuracy;
-}
-
-std::string commandOf(const AccuracyOptions& options) {
-    std::vector<std::string> words;
-    for (const std::string& scene : options.scenes) words.push_back(operandOf(scene));
-    for (const std::string& text : options.overrides) words.insert(words.end(), {"--set", text});
-    if (options.from >= 0.0) words.insert(words.end(), {"--from", fmt::format("{:g}", options.from)});
-    if (options.window > 0.0) words.insert(words.end(), {"--window", fmt::format("{:g}", options.window)});
-    return commandLineOf(options, words);
 }
 
 void writeTables(const fs::path& folder, const std::vector<studies::SceneAccuracy>& results) {
@@ -211,28 +177,69 @@ void study(const AccuracyOptions& options) {
 
 }  // namespace
 
+std::string subjectName(const std::string& scene) {
+    constexpr std::size_t kRoom = 50;  // bytes of a file's name, for the window and what its plot shows
+    std::string name = render::shortenedName(runName({scene, {}, {}}), kRoom);
+    std::ranges::replace(name, '/', '-');
+    return name;
+}
+
+studies::RunListener runReporter(const AccuracyOptions& options, const std::string& scene) {
+    return [&options, scene](const studies::WindowRun& run, std::string_view purpose) {
+        const std::string stepper = studies::nameOf(run.variant);
+        reportProgress(options,
+                       {{"event", purpose},
+                        {"scene", scene},
+                        {"stepper", stepper},
+                        {"asked", run.variant.asked},
+                        {"ending", studies::nameOf(run.ending)},
+                        {"seconds", run.seconds}},
+                       fmt::format("{}: {} {} {:.4g}, {} steps, {:.3g} s, {}\n", scene, purpose, stepper,
+                                   run.variant.asked, run.steps.count, run.seconds, studies::nameOf(run.ending)));
+    };
+}
+
+std::string commandOf(const AccuracyOptions& options) {
+    std::vector<std::string> words;
+    if (options.whole) words.emplace_back("--whole");
+    for (const std::string& scene : options.scenes) words.push_back(operandOf(scene));
+    for (const std::string& text : options.overrides) words.insert(words.end(), {"--set", text});
+    if (options.from >= 0.0) words.insert(words.end(), {"--from", fmt::format("{:g}", options.from)});
+    if (options.window > 0.0) words.insert(words.end(), {"--window", fmt::format("{:g}", options.window)});
+    return commandLineOf(options, words);
+}
+
 void addStudyAccuracy(CLI::App& program) {
     CLI::App& command = *program.add_subcommand("accuracy", "speed against error: every stepper against a reference");
     const auto options = std::make_shared<AccuracyOptions>();
     command.add_option(
         "SCENE", options->scenes,
         "scene files or names, each with a window of its own as in powder:2 (default: liquid solid powder "
-        "fountain honey; powder:2 too unless quick)");
+        "fountain honey; powder:2 too unless quick; with --whole also lava mud sand cascade splash)");
+    CLI::Option* whole = command.add_flag(
+        "--whole", options->whole, "whole scenes instead of windows: auto against the best fixed stepper and step");
     command.add_option("--set", options->overrides, "change a key of every scene")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
     command.add_option("--from", options->from, "where the runs start, s (default: 0.4 of the scene's still time)")
-        ->check(numberAtLeastZero());
-    command.add_option("--window", options->window, "how long they run, s (default: 0.2)")->check(numberAboveZero());
+        ->check(numberAtLeastZero())
+        ->excludes(whole);
+    command.add_option("--window", options->window, "how long they run, s (default: 0.2)")
+        ->check(numberAboveZero())
+        ->excludes(whole);
     addStudyFlags(command, *options, "a coarse measurement: fewer runs, timed once");
     command.footer("Example: globular study accuracy liquid powder -o out/accuracy --threads 2");
     command.callback([options] {
-        if (options->scenes.empty()) {
-            options->scenes = {"liquid", "solid", "powder", "fountain", "honey"};
+        std::vector<std::string>& scenes = options->scenes;
+        if (scenes.empty()) {
+            scenes = {"liquid", "solid", "powder", "fountain", "honey"};
             // Two seconds of a powder are long enough for chaos, so that statistics are compared instead of positions.
-            if (!options->quick) options->scenes.emplace_back("powder:2");
+            if (options->whole)
+                scenes.insert(scenes.end(), {"lava", "mud", "sand", "cascade", "splash"});
+            else if (!options->quick)
+                scenes.emplace_back("powder:2");
         }
-        study(*options);
+        options->whole ? studyWhole(*options) : study(*options);
     });
 }
 

@@ -45,10 +45,13 @@ std::string accuracySection(const AccuracySection& section) {
 std::string accuracyText(const AccuracyRun& run) {
     return fmt::format(
         "<p><code>{}</code>, {} thread{}. Seconds are wall clock, {}. Costs in force evaluations include the implicit "
-        "steppers' matrix-vector products, each at the share of an evaluation that the plots state, and the automatic "
-        "stepper's error estimates within the window. The automatic stepper begins the window with its choice made, "
-        "as in the middle of a run: its first error estimates are not counted, nor is the comparison of all steppers "
-        "at every fifth estimate, some dozens of intervals apart, which so short a window seldom contains. The cost of "
+        "steppers' matrix-vector products, each at the share of an evaluation that the plots state, and all trial runs "
+        "of "
+        "the automatic stepper. It begins the window as in a run that has got there, with the stepper, the steps and "
+        "the calibrations of a run of its own at the same error. Its trial runs are some dozens of frames apart, so "
+        "that a short window holds none or one that costs nearly as much as itself: its evaluations and its seconds "
+        "are charged with the share that these runs have of the scene from its start to the end of the window. Whole "
+        "scenes, in which nothing is charged by share, are measured with --whole. The cost of "
         "a hand-picked stepper at an error is read off its line in the plot, log-linear between its points; the best "
         "is the cheapest of all fixed steppers. Drifts are differences from the reference "
         "at the end: of the energy, over the reference's kinetic energy and the sizes of its pair and contact "
@@ -98,6 +101,25 @@ std::string accuracyPage(const std::vector<AccuracySection>& sections, const Acc
     std::string body = accuracyText(run);
     for (const AccuracySection& each : sections) body += accuracySection(each);
     return htmlPage("Globular dynamics: speed against error", body);
+}
+
+std::string wholePage(const std::vector<studies::WholeScene>& scenes, const AccuracyRun& run) {
+    const std::string body =
+        fmt::format(
+            "<p><code>{}</code>, {} thread{}. {}</p>\n<p>Errors are root mean square distances in radii per second of "
+            "motion, means over windows of 0.2 s that are spread over the run of the automatic stepper and compared "
+            "with references that begin where the windows do. The reference's change is what the last halving of its "
+            "step moved. A fixed stepper takes the longest step whose mean error over the same windows is at most the "
+            "wanted one, over the whole scene; those that cost more than twice the best are left out. Costs are in "
+            "force evaluations; those of the automatic stepper's trial runs are in a column of their own and in the "
+            "sum. Seconds are wall clock, {}. The same numbers are in whole.csv, whole_steppers.csv and "
+            "whole_windows.csv.</p>\n",
+            escaped(run.command), run.threads, run.threads == 1 ? "" : "s", studies::wholeSentence(scenes),
+            run.isTimedOnce ? "each run timed once" : "medians of three runs in turn, of one that takes over 5 s") +
+        "<h2>auto against the best hand-picked stepper and step</h2>\n" + csvHtml(studies::wholeCsv(scenes)) +
+        "<h2>Fixed steppers</h2>\n" + csvHtml(studies::wholeSteppersCsv(scenes)) +
+        "<details><summary>All windows</summary>\n" + csvHtml(studies::wholeWindowsCsv(scenes)) + "</details>\n";
+    return htmlPage("Globular dynamics: the automatic stepper over whole scenes", body);
 }
 
 std::string picturesPage(const PictureResults& results, const std::string& command) {
