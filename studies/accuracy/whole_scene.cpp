@@ -87,7 +87,7 @@ WindowRun runScene(const scenes::Scene& scene, const Variant& variant, double se
     setup.stepper = variant.stepper;
     if (variant.stepper != StepperKind::automatic) setup.step = variant.asked;
     engine::Simulation simulation = engine::start(setup);
-    WindowRun run = timeFrames(scene, simulation, 0, scenes::frameCount(scene), secondsLimit);
+    WindowRun run = timeFrames(scene, simulation, 0, lastFrameOf(scene), secondsLimit);
     run.variant = variant;
     return run;
 }
@@ -150,7 +150,7 @@ WholeScene measureWhole(const std::string& name, const scenes::Scene& scene, con
                         const RunListener& listener) {
     WholeScene whole;
     whole.name = name;
-    whole.duration = scenes::frameTime(scene, scenes::frameCount(scene));
+    whole.duration = scenes::frameTime(scene, lastFrameOf(scene));
     whole.wanted = scene.setup.error;
     AutomaticRun automatic = runAutomatically(scene, settings.windowCount, settings.windowSeconds);
     listener(automatic.run, "whole");

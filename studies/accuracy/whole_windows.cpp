@@ -47,7 +47,7 @@ engine::Simulation stateOf(const engine::Simulation& simulation) {
 class WindowRecorder {
  public:
     WindowRecorder(const scenes::Scene& scene, int windowCount, double windowSeconds)
-        : scene_(scene), frames_(scenes::frameCount(scene)) {
+        : scene_(scene), frames_(lastFrameOf(scene)) {
         length_ = std::min(frames_, static_cast<int>(std::ceil(scene.fps.framesIn(windowSeconds) - 1e-9)));
         count_ = std::clamp(frames_ / (2 * length_), 1, windowCount);
     }
@@ -88,6 +88,10 @@ class WindowRecorder {
 
 }  // namespace
 
+int lastFrameOf(const scenes::Scene& scene) {
+    return std::max(1, scenes::frameCount(scene) - 1);
+}
+
 AutomaticRun runAutomatically(const scenes::Scene& scene, int windowCount, double windowSeconds) {
     engine::Setup setup = scene.setup;
     setup.stepper = StepperKind::automatic;
@@ -95,7 +99,7 @@ AutomaticRun runAutomatically(const scenes::Scene& scene, int windowCount, doubl
     WindowRecorder recorder(scene, windowCount, windowSeconds);
     recorder.pass(simulation, 0);
     AutomaticRun result;
-    result.run = timeFrames(scene, simulation, 0, scenes::frameCount(scene), kInfinity,
+    result.run = timeFrames(scene, simulation, 0, lastFrameOf(scene), kInfinity,
                             [&](int frame) { recorder.pass(simulation, frame); });
     if (result.run.ending != Ending::finished) throw engine::InstabilityError(result.run.failureMessage);
     result.run.variant = {StepperKind::automatic, setup.error, {}};

@@ -26,6 +26,9 @@ struct AutomaticRun {
     std::vector<WholeWindow> windows;
 };
 
+/// The last frame of a scene, with which `globular simulate` ends; at least 1.
+int lastFrameOf(const scenes::Scene& scene);
+
 /// Runs a whole scene with the automatic stepper, at the error that the scene wants. The windows are spread evenly over
 /// it and cover at most half of it. They are copies, so that the run has the states and the cost of a plain one.
 /// @param windowCount  largest number of windows; those that begin without a particle are left out
