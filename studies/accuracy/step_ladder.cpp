@@ -3,12 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace studies {
 namespace {
 
 /// The last step of the ladder is a frame over 2^(kLastRung / 2), 1024. Chosen: far below any useful step.
 constexpr int kLastRung = 20;
+
+/// From this share of rejected steps on, shorter steps may cost less. Chosen.
+constexpr double kOftenRejected = 0.05;
+
+/// Number of steps that cost too much after which a walk is given up. Chosen: costs change by a factor of four
+/// meanwhile.
+constexpr int kMostTooExpensive = 5;
 
 /// The step at a rung of the ladder, s.
 double stepAt(int rung, double frameSeconds) {
@@ -33,19 +41,24 @@ double between(double a, double b, double t) {
 
 std::vector<LadderPoint> walkLadder(const LadderRun& run, double frameSeconds, double first, double wanted) {
     std::vector<LadderPoint> points;
-    int rung = rungOf(first, frameSeconds);
-    const std::optional<LadderPoint> start = run(stepAt(rung, frameSeconds));
-    if (start) points.push_back(*start);
-    const bool toLonger = !start || start->error <= wanted;
-    for (rung += toLonger ? -1 : 1; rung >= 0 && rung <= kLastRung; rung += toLonger ? -1 : 1) {
-        const std::optional<LadderPoint> point = run(stepAt(rung, frameSeconds));
-        if (!point) {
-            if (points.empty()) continue;  // longer steps may cost less
-            break;
+    // Measures rungs from one on, in one direction, until isLast(point), or one costs too much after others did not.
+    const auto walk = [&](int rung, int direction, const auto& isLast) {
+        for (int tooExpensive = 0; rung >= 0 && rung <= kLastRung; rung += direction) {
+            const std::optional<LadderPoint> point = run(stepAt(rung, frameSeconds));
+            if (point) points.push_back(*point);
+            if (point ? isLast(*point) : !points.empty() || ++tooExpensive == kMostTooExpensive) return;
         }
-        points.push_back(*point);
-        if ((point->error <= wanted) != toLonger) break;
-    }
+    };
+    const auto meets = [&](const LadderPoint& point) { return point.error <= wanted; };
+    const int start = rungOf(first, frameSeconds);
+    walk(start, -1, [&](const LadderPoint& point) { return !meets(point); });
+    const bool metNothing = std::ranges::none_of(points, meets);
+    if (metNothing && points.size() <= 1) walk(start + 1, 1, meets);
+    const auto shortest = std::ranges::min_element(points, {}, &LadderPoint::step);
+    if (shortest == points.end() || !meets(*shortest) || shortest->rejected < kOftenRejected) return points;
+    double least = shortest->evaluations;
+    walk(rungOf(shortest->step, frameSeconds) + 1, 1,
+         [&](const LadderPoint& point) { return std::exchange(least, point.evaluations) < point.evaluations; });
     return points;
 }
 
@@ -58,7 +71,8 @@ std::optional<LadderPoint> longestWithin(std::vector<LadderPoint> points, double
     if (found != points.begin() && std::isfinite(found[-1].error) && found->error > 0.0) {
         const LadderPoint& longer = found[-1];
         const double t = std::log(wanted / found->error) / std::log(longer.error / found->error);
-        best = {between(found->step, longer.step, t), wanted, between(found->evaluations, longer.evaluations, t)};
+        best = {between(found->step, longer.step, t), wanted, between(found->evaluations, longer.evaluations, t),
+                std::max(found->rejected, longer.rejected)};
     }
     for (const LadderPoint& point : points)
         if (meets(point) && point.evaluations < best.evaluations) best = point;

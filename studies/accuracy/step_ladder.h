@@ -13,13 +13,15 @@ struct LadderPoint {
     double step = 0.0;         ///< s
     double error = 0.0;        ///< radii per second; infinite if a run became unstable
     double evaluations = 0.0;  ///< force evaluations
+    double rejected = 0.0;     ///< rejected steps over accepted ones
 };
 
 /// Measures one step (s) of a ladder; nothing if it costs too much.
 using LadderRun = std::function<std::optional<LadderPoint>(double step)>;
 
-/// Measures steps on both sides of the longest one that meets the wanted error. The steps of the ladder divide a frame
-/// evenly and differ by factors of about sqrt(2); the longest is a frame.
+/// Measures steps on both sides of the longest one that meets the wanted error, and shorter ones as long as rejected
+/// steps make them cheaper. The steps of the ladder divide a frame evenly and differ by factors of about sqrt(2); the
+/// longest is a frame.
 /// @param first  step at which the walk starts, s
 /// @return  the points that were measured, in any order
 std::vector<LadderPoint> walkLadder(const LadderRun& run, double frameSeconds, double first, double wanted);

@@ -26,12 +26,6 @@ constexpr double kTooExpensive = 2.0;
 /// the automatic stepper may have taken steps that are too long.
 constexpr double kFarTooExpensive = 4.0;
 
-/// A fixed stepper with the step that meets the wanted error in the windows.
-struct Choice {
-    StepperKind stepper = StepperKind::velocityVerlet;
-    LadderPoint point;
-};
-
 /// Measures a stepper at a step in all windows. Returns nothing if that costs more than `most` force evaluations.
 std::optional<LadderPoint> measurePoint(const std::vector<WholeWindow>& windows, const Variant& variant, double most,
                                         const RunListener& listener) {
@@ -52,12 +46,14 @@ std::optional<LadderPoint> measurePoint(const std::vector<WholeWindow>& windows,
     listener(all, "windows");
     if (all.ending == Ending::tooSlow) return std::nullopt;
     const double mean = all.ending == Ending::unstable ? kInfinity : errors / static_cast<double>(windows.size());
-    return LadderPoint{variant.asked, mean, all.evaluationCost};
+    const double rejected = static_cast<double>(all.steps.rejected) / static_cast<double>(all.steps.count);
+    return LadderPoint{variant.asked, mean, all.evaluationCost, rejected};
 }
 
 /// The steps of the fixed steppers that meet the wanted error, by rising cost in the windows.
-std::vector<Choice> choicesIn(const scenes::Scene& scene, const std::vector<WholeWindow>& windows,
-                              const RunListener& listener) {
+/// @param ladder  receives everything that was measured
+std::vector<FixedPoint> choicesIn(const scenes::Scene& scene, const std::vector<WholeWindow>& windows,
+                                  std::vector<FixedPoint>& ladder, const RunListener& listener) {
     double most = 0.0;
     double step = 0.0;
     std::size_t implicit = 0;
@@ -68,16 +64,17 @@ std::vector<Choice> choicesIn(const scenes::Scene& scene, const std::vector<Whol
     }
     std::array steppers = kFixed;  // what the automatic stepper took comes first, because it is likely to be cheap
     if (2 * implicit > windows.size()) std::ranges::reverse(steppers);
-    std::vector<Choice> choices;
+    std::vector<FixedPoint> choices;
     for (const StepperKind stepper : steppers) {
         const LadderRun run = [&](double each) { return measurePoint(windows, {stepper, each, {}}, most, listener); };
         const auto points = walkLadder(run, scenes::frameTime(scene, 1), step, scene.setup.error);
+        for (const LadderPoint& each : points) ladder.push_back({stepper, each});
         const auto point = longestWithin(points, scene.setup.error);
         if (!point) continue;
         choices.push_back({stepper, *point});
         most = std::min(most, kTooExpensive * point->evaluations);
     }
-    std::ranges::sort(choices, {}, [](const Choice& choice) { return choice.point.evaluations; });
+    std::ranges::sort(choices, {}, [](const FixedPoint& choice) { return choice.point.evaluations; });
     return choices;
 }
 
@@ -93,11 +90,11 @@ WindowRun runScene(const scenes::Scene& scene, const Variant& variant, double se
 }
 
 /// Runs the whole scene with those choices that may be the best.
-std::vector<FixedWholeRun> runChoices(const scenes::Scene& scene, const std::vector<Choice>& choices,
+std::vector<FixedWholeRun> runChoices(const scenes::Scene& scene, const std::vector<FixedPoint>& choices,
                                       double secondsLimit, const RunListener& listener) {
     std::vector<FixedWholeRun> runs;
     const double frame = scenes::frameTime(scene, 1);
-    for (const Choice& choice : choices) {
+    for (const FixedPoint& choice : choices) {
         if (choice.point.evaluations > kTooExpensive * choices.front().point.evaluations) continue;
         const double step = frame / engine::stepCount(frame, choice.point.step);
         const WindowRun run = runScene(scene, {choice.stepper, step, {}}, secondsLimit);
@@ -161,7 +158,8 @@ WholeScene measureWhole(const std::string& name, const scenes::Scene& scene, con
     addErrors(whole, automatic.windows);
     if (automatic.windows.empty()) return whole;  // there is no motion
     const double secondsLimit = 2.0 * kFarTooExpensive * whole.seconds;
-    whole.fixed = runChoices(scene, choicesIn(scene, automatic.windows, listener), secondsLimit, listener);
+    whole.fixed =
+        runChoices(scene, choicesIn(scene, automatic.windows, whole.ladder, listener), secondsLimit, listener);
     timeAgain(scene, whole, settings.rounds, listener);
     return whole;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "studies/accuracy/reference.h"
+#include "studies/accuracy/step_ladder.h"
 
 namespace studies {
 
@@ -23,6 +24,12 @@ struct FixedWholeRun {
     double error = 0.0;           ///< mean over the windows, radii per second, read off the ladder of steps
     double evaluationCost = 0.0;  ///< force evaluations of the whole run
     double seconds = 0.0;         ///< wall-clock time of the whole run
+};
+
+/// Error and cost of a fixed stepper over the windows.
+struct FixedPoint {
+    engine::StepperKind stepper = engine::StepperKind::velocityVerlet;
+    LadderPoint point;
 };
 
 /// The error of the automatic stepper in one window of its run.
@@ -46,6 +53,7 @@ struct WholeScene {
     double trialEvaluations = 0.0;  ///< of its trial runs, force evaluations
     double seconds = 0.0;           ///< wall-clock time of its run, trial runs included
     std::vector<WholeWindowError> windows;
+    std::vector<FixedPoint> ladder;    ///< everything that was measured in the windows
     std::vector<FixedWholeRun> fixed;  ///< those that cost at most twice as much as the best one
 
     /// Everything that the automatic stepper has spent, force evaluations.
@@ -65,6 +73,8 @@ WholeScene measureWhole(const std::string& name, const scenes::Scene& scene, con
 std::string wholeCsv(const std::vector<WholeScene>& scenes);
 /// CSV with a line for each fixed stepper of each scene.
 std::string wholeSteppersCsv(const std::vector<WholeScene>& scenes);
+/// CSV with a line for each step of each fixed stepper that was measured in the windows of each scene.
+std::string wholeLadderCsv(const std::vector<WholeScene>& scenes);
 /// CSV with a line for each window of each scene.
 std::string wholeWindowsCsv(const std::vector<WholeScene>& scenes);
 

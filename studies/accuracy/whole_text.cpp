@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/stepping/take_step.h"
 #include "studies/accuracy/whole_scene.h"
@@ -45,6 +46,17 @@ std::string wholeSteppersCsv(const std::vector<WholeScene>& scenes) {
         for (const FixedWholeRun& run : scene.fixed)
             csv += csvFields(scene.name, engine::nameOf(run.stepper), run.step, run.error, run.evaluationCost,
                              run.seconds) +
+                   "\n";
+    return csv;
+}
+
+std::string wholeLadderCsv(const std::vector<WholeScene>& scenes) {
+    std::string csv = "scene,stepper,step_s,error_radii_per_s,evaluations_in_windows,rejected_share\n";
+    for (const WholeScene& scene : scenes)
+        for (const auto& [stepper, point] : scene.ladder)
+            csv += csvFields(scene.name, engine::nameOf(stepper), point.step,
+                             std::isfinite(point.error) ? std::optional(point.error) : std::nullopt, point.evaluations,
+                             point.rejected) +
                    "\n";
     return csv;
 }

@@ -43,6 +43,19 @@ TEST_CASE("A study writes tables, plots and a page that stands alone", "[tools]"
     CHECK(page.find("pair.toml --quick --threads 1") != std::string::npos);
 }
 
+TEST_CASE("A study of whole scenes writes its tables and a page with a sentence to quote", "[tools]") {
+    const program::Folder folder;
+    const auto outcome = run(commandOn(folder) + " --whole");
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    for (const char* name : {"whole.csv", "whole_steppers.csv", "whole_windows.csv", "whole_ladder.csv"})
+        CHECK(program::lineCount(program::textOf(folder / "study" / name)) >= 2);
+    const std::string page = program::textOf(folder / "study" / "index.html");
+    CHECK(page.find("its trial runs included, the automatic stepper spends at most") != std::string::npos);
+    CHECK(page.find("accuracy --whole") != std::string::npos);
+    CHECK(run(commandOn(folder) + " --whole --from 1").code == 2);
+}
+
 TEST_CASE("Without gnuplot the tables are there and the message names the package", "[tools]") {
     const program::Folder folder;
     const auto outcome = run(commandOn(folder) + " --quiet", "PATH=/nonexistent");

@@ -54,6 +54,7 @@ studies::WholeScene measureSubject(const WholeSubject& subject, const AccuracyOp
 void writeWholeTables(const fs::path& folder, const std::vector<studies::WholeScene>& results) {
     writeFile(folder / "whole.csv", studies::wholeCsv(results));
     writeFile(folder / "whole_steppers.csv", studies::wholeSteppersCsv(results));
+    writeFile(folder / "whole_ladder.csv", studies::wholeLadderCsv(results));
     writeFile(folder / "whole_windows.csv", studies::wholeWindowsCsv(results));
 }
 

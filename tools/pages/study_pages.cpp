@@ -112,13 +112,15 @@ std::string wholePage(const std::vector<studies::WholeScene>& scenes, const Accu
             "step moved. A fixed stepper takes the longest step whose mean error over the same windows is at most the "
             "wanted one, over the whole scene; those that cost more than twice the best are left out. Costs are in "
             "force evaluations; those of the automatic stepper's trial runs are in a column of their own and in the "
-            "sum. Seconds are wall clock, {}. The same numbers are in whole.csv, whole_steppers.csv and "
-            "whole_windows.csv.</p>\n",
+            "sum. Seconds are wall clock, {}. The same numbers are in whole.csv, whole_steppers.csv, "
+            "whole_windows.csv and whole_ladder.csv.</p>\n",
             escaped(run.command), run.threads, run.threads == 1 ? "" : "s", studies::wholeSentence(scenes),
             run.isTimedOnce ? "each run timed once" : "medians of three runs in turn, of one that takes over 5 s") +
         "<h2>auto against the best hand-picked stepper and step</h2>\n" + csvHtml(studies::wholeCsv(scenes)) +
         "<h2>Fixed steppers</h2>\n" + csvHtml(studies::wholeSteppersCsv(scenes)) +
-        "<details><summary>All windows</summary>\n" + csvHtml(studies::wholeWindowsCsv(scenes)) + "</details>\n";
+        "<details><summary>All windows</summary>\n" + csvHtml(studies::wholeWindowsCsv(scenes)) +
+        "</details>\n<details><summary>All steps of fixed steppers in the windows</summary>\n" +
+        csvHtml(studies::wholeLadderCsv(scenes)) + "</details>\n";
     return htmlPage("Globular dynamics: the automatic stepper over whole scenes", body);
 }
 
