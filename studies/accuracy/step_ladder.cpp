@@ -79,4 +79,21 @@ std::optional<LadderPoint> longestWithin(std::vector<LadderPoint> points, double
     return best;
 }
 
+std::optional<LadderPoint> refine(std::vector<LadderPoint>& points, const LadderRun& run, double frameSeconds,
+                                  double wanted) {
+    const std::optional<LadderPoint> guess = longestWithin(points, wanted);
+    if (!guess) return std::nullopt;
+    const double count = frameSeconds / guess->step;
+    for (const double each : {std::floor(count + 1e-9), std::ceil(count - 1e-9)}) {
+        const double step = frameSeconds / each;
+        const auto isSame = [&](const LadderPoint& point) { return std::abs(point.step - step) < 1e-9 * step; };
+        if (std::ranges::any_of(points, isSame)) continue;
+        if (const std::optional<LadderPoint> point = run(step)) points.push_back(*point);
+    }
+    std::optional<LadderPoint> best;
+    for (const LadderPoint& point : points)
+        if (point.error <= wanted && (!best || point.evaluations < best->evaluations)) best = point;
+    return best;
+}
+
 }  // namespace studies

@@ -31,4 +31,9 @@ std::vector<LadderPoint> walkLadder(const LadderRun& run, double frameSeconds, d
 /// @return  nothing if no point meets it; the longest point if all do
 std::optional<LadderPoint> longestWithin(std::vector<LadderPoint> points, double wanted);
 
+/// Measures the two steps that divide a frame evenly and are next to longestWithin(), and adds them to the points.
+/// @return  the point that meets the wanted error at the least cost; nothing if none does
+std::optional<LadderPoint> refine(std::vector<LadderPoint>& points, const LadderRun& run, double frameSeconds,
+                                  double wanted);
+
 }  // namespace studies

@@ -64,12 +64,13 @@ std::vector<FixedPoint> choicesIn(const scenes::Scene& scene, const std::vector<
     }
     std::array steppers = kFixed;  // what the automatic stepper took comes first, because it is likely to be cheap
     if (2 * implicit > windows.size()) std::ranges::reverse(steppers);
+    const double frame = scenes::frameTime(scene, 1);
     std::vector<FixedPoint> choices;
     for (const StepperKind stepper : steppers) {
         const LadderRun run = [&](double each) { return measurePoint(windows, {stepper, each, {}}, most, listener); };
-        const auto points = walkLadder(run, scenes::frameTime(scene, 1), step, scene.setup.error);
+        auto points = walkLadder(run, frame, step, scene.setup.error);
+        const auto point = refine(points, run, frame, scene.setup.error);
         for (const LadderPoint& each : points) ladder.push_back({stepper, each});
-        const auto point = longestWithin(points, scene.setup.error);
         if (!point) continue;
         choices.push_back({stepper, *point});
         most = std::min(most, kTooExpensive * point->evaluations);
@@ -93,14 +94,12 @@ WindowRun runScene(const scenes::Scene& scene, const Variant& variant, double se
 std::vector<FixedWholeRun> runChoices(const scenes::Scene& scene, const std::vector<FixedPoint>& choices,
                                       double secondsLimit, const RunListener& listener) {
     std::vector<FixedWholeRun> runs;
-    const double frame = scenes::frameTime(scene, 1);
     for (const FixedPoint& choice : choices) {
         if (choice.point.evaluations > kTooExpensive * choices.front().point.evaluations) continue;
-        const double step = frame / engine::stepCount(frame, choice.point.step);
-        const WindowRun run = runScene(scene, {choice.stepper, step, {}}, secondsLimit);
+        const WindowRun run = runScene(scene, {choice.stepper, choice.point.step, {}}, secondsLimit);
         listener(run, "whole");
         if (run.ending != Ending::finished) continue;
-        runs.push_back({choice.stepper, step, choice.point.error, run.evaluationCost, run.seconds});
+        runs.push_back({choice.stepper, choice.point.step, choice.point.error, run.evaluationCost, run.seconds});
     }
     return runs;
 }

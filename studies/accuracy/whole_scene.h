@@ -17,11 +17,11 @@ struct WholeSettings {
     int rounds = 3;              ///< how often a run is timed; long ones are timed once
 };
 
-/// A whole run of a fixed stepper, with the longest step that meets the wanted error.
+/// A whole run of a fixed stepper, with the cheapest step that meets the wanted error.
 struct FixedWholeRun {
     engine::StepperKind stepper = engine::StepperKind::velocityVerlet;
     double step = 0.0;            ///< s
-    double error = 0.0;           ///< mean over the windows, radii per second, read off the ladder of steps
+    double error = 0.0;           ///< mean over the windows, radii per second
     double evaluationCost = 0.0;  ///< force evaluations of the whole run
     double seconds = 0.0;         ///< wall-clock time of the whole run
 };
@@ -63,8 +63,8 @@ struct WholeScene {
 /// The fixed run with the least evaluations or seconds; nothing if none has finished.
 std::optional<FixedWholeRun> bestBy(const std::vector<FixedWholeRun>& runs, double FixedWholeRun::*cost);
 
-/// Runs a whole scene with the automatic stepper at the error that the scene asks for, finds the longest step of each
-/// fixed stepper that errs as much in windows of that run, and runs the whole scene with it.
+/// Runs a whole scene with the automatic stepper at the error that the scene asks for, finds the cheapest step of each
+/// fixed stepper that meets that error in windows of the run, and runs the whole scene with it.
 /// @throws engine::InstabilityError if the automatic stepper or a reference becomes unstable
 WholeScene measureWhole(const std::string& name, const scenes::Scene& scene, const WholeSettings& settings,
                         const RunListener& listener);

@@ -163,6 +163,20 @@ TEST_CASE("The ladder is walked to both sides of the wanted error, past steps th
     CHECK(longest.back().step == 1.0);
 }
 
+TEST_CASE("The cheapest step that divides a frame is found between the rungs of the ladder", "[studies]") {
+    const auto run = [](double step) { return std::optional(secondOrder(step)); };
+    for (const double count : {1.0, 2.0, 5.0, 13.0}) {
+        INFO("frame over " << count);
+        const double wanted = 1.001 / (count * count);
+        auto points = studies::walkLadder(run, 1.0, 0.1, wanted);
+        const auto found = studies::refine(points, run, 1.0, wanted);
+        REQUIRE(found);
+        CHECK(found->step == Approx(1.0 / count).epsilon(1e-12));
+    }
+    std::vector<LadderPoint> none = {secondOrder(0.5)};
+    CHECK_FALSE(studies::refine(none, run, 1.0, 0.1));
+}
+
 TEST_CASE("The best fixed run is that with the least of what is asked for", "[studies]") {
     const std::vector<studies::FixedWholeRun> runs = {{StepperKind::velocityVerlet, 0.01, 0.05, 100.0, 3.0},
                                                       {StepperKind::leapfrog, 0.01, 0.05, 120.0, 2.0}};
