@@ -2,6 +2,7 @@
 #include "engine/error_control/auto_stepper.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/error_control/checked_steps.h"
@@ -15,29 +16,37 @@
 namespace engine {
 namespace {
 
-/// The steppers among which the automatic stepper chooses. Leapfrog and the stepper that treats only damping
-/// implicitly never cost a tenth less than the better of these.
-constexpr StepperKind kExplicit = StepperKind::velocityVerlet;
-constexpr StepperKind kImplicit = StepperKind::linearlyImplicit;
+/// The steppers among which the automatic stepper chooses, in the order in which they are tried. A run begins with the
+/// first. The stepper that treats only damping implicitly never costs a tenth less than the best of these.
+constexpr std::array kCandidates{StepperKind::velocityVerlet, StepperKind::leapfrog, StepperKind::linearlyImplicit};
+
+constexpr double kAnyCost = std::numeric_limits<double>::infinity();
 
 /// First step, in intervals. Chosen: the filter finds the right one within some steps.
 constexpr double kFirstStep = 1.0 / 8.0;
 
-/// First step of the implicit stepper, in mean steps of velocity Verlet. Chosen.
+/// First step of the implicit stepper, in steps of an explicit one. Chosen.
 constexpr double kLongerImplicit = 3.0;
 
-/// Pause after the first twin, in intervals; it is doubled after each twin up to kLongestPause. Chosen.
-constexpr std::uint64_t kFirstPause = 16;
+/// Pauses from the start of a twin to that of the next, in durations of a twin: after the first, from which it is
+/// doubled up to kLongestPause, and the least before a twin that starts early. Chosen.
+constexpr std::uint64_t kFirstPause = 2;
+constexpr std::uint64_t kShortestPause = 2;
 
-/// The next twin starts early if the step has become shorter by this factor since the last one. Chosen.
-constexpr double kShorter = 0.5;
+/// The next twin starts early if an interval costs more, by this factor, than one did when the last twin started.
+/// Chosen.
+constexpr double kCostlier = 2.0;
 
-/// Pause after a candidate that did not cost less, in intervals. Chosen: a candidate costs at most what the run costs
+/// Pause from one candidate to the next, in durations of a twin. Chosen: a candidate costs at most what the run costs
 /// in the time of a twin.
-constexpr std::uint64_t kCandidatePause = 128;
+constexpr std::uint64_t kCandidatePause = 15;
 
-/// Smallest difference of the run and a twin of its stepper, as a share of the run's own error, from which anything is
-/// learned: a twin whose steps emissions or the audit have ended takes nearly the same ones. Chosen.
+/// No other stepper is tried where an interval costs less, in force evaluations. Chosen: at least one step is taken in
+/// an interval, and an implicit step costs about half of this.
+constexpr double kLeastCost = 8.0;
+
+/// Smallest difference of the estimates of the run and of a twin of its stepper, as a share of the run's, from which
+/// anything is learned: a twin whose steps emissions or the audit have ended takes nearly the same ones. Chosen.
 constexpr double kLeastContrast = 0.3;
 
 /// The error is far below the wanted one if it is below this share of it, although the steps are as long as they can
@@ -59,8 +68,24 @@ StepControl& controlOf(Simulation& simulation, StepperKind stepper) {
     return simulation.automatic.controls[static_cast<std::size_t>(stepper)];
 }
 
-StepperKind otherThan(StepperKind stepper) {
-    return stepper == kExplicit ? kImplicit : kExplicit;
+/// The stepper that is tried next. Steps that something else than the error limits get at most twice as long by
+/// leapfrog, and as long as an interval by the implicit stepper.
+StepperKind nextCandidate(const Simulation& simulation, double interval) {
+    const AutoState& state = simulation.automatic;
+    const auto notLast = [&](StepperKind first, StepperKind second) {
+        return state.lastCandidate == first ? second : first;
+    };
+    switch (simulation.stepper) {
+        case StepperKind::leapfrog:
+            return state.isLimited ? StepperKind::linearlyImplicit : StepperKind::velocityVerlet;
+        case StepperKind::linearlyImplicit:
+            return notLast(StepperKind::leapfrog, StepperKind::velocityVerlet);
+        default:
+            break;
+    }
+    return state.runCostPerSecond * interval > 2.0 * kLeastCost
+               ? notLast(StepperKind::linearlyImplicit, StepperKind::leapfrog)
+               : notLast(StepperKind::leapfrog, StepperKind::linearlyImplicit);
 }
 
 /// Corrects the calibration of a stepper by a measured error and the mean estimate of the same steps.
@@ -71,44 +96,46 @@ void calibrate(StepControl& steps, double error, double estimate) {
     steps.isCalibrated = true;
 }
 
-/// Learns from a twin of the stepper in use. Returns whether the error is far below the wanted one, as far as is known.
-bool learnFromTwin(Simulation& simulation, const Comparison& compared) {
-    const TwinRun& twin = simulation.automatic.twin;
-    // The error of the twin is that of the run times `more`; their difference is that of the errors.
-    const double more = errorRatio(twin.stepper, twin.step / compared.step);
-    if (more - 1.0 < kLeastContrast) return true;
-    const double error = compared.distance / (more - 1.0);
-    calibrate(controlOf(simulation, twin.stepper), error, compared.estimate);
-    return error < kFarBelow * simulation.setup.error;
+/// Learns from a twin of the stepper in use.
+void learnFromTwin(Simulation& simulation, const Comparison& compared) {
+    AutoState& state = simulation.automatic;
+    // The errors of the two are to each other as their estimates, and the distance between them is the difference.
+    const double contrast = state.twin.estimate / compared.estimate - 1.0;
+    state.isLimited = true;
+    if (!(contrast >= kLeastContrast)) return;
+    const double error = compared.distance / contrast;
+    calibrate(controlOf(simulation, simulation.stepper), error, compared.estimate);
+    state.isLimited = error < kFarBelow * simulation.setup.error;
 }
 
 /// Takes the stepper of the twin if it costs less at the step with which it meets the wanted error.
 void judgeCandidate(Simulation& simulation, const Comparison& compared, double interval) {
     const TwinRun& twin = simulation.automatic.twin;
     if (!(compared.distance > 0.0)) return;
+    // The distance is that of independent errors: the squares of both add up.
+    const double distanceSq = compared.distance * compared.distance;
+    const double errorOfRun = controlOf(simulation, simulation.stepper).calibration * compared.estimate;
+    const double error = std::sqrt(std::max(0.25 * distanceSq, distanceSq - errorOfRun * errorOfRun));
     constexpr double kMostChange = 3.0;  // beyond it the error no longer follows a power of the step; chosen
     const double change =
-        std::clamp(stepRatio(twin.stepper, simulation.setup.error / compared.distance), 1.0 / kMostChange, kMostChange);
+        std::clamp(stepRatio(twin.stepper, simulation.setup.error / error), 1.0 / kMostChange, kMostChange);
     const double step = std::min(twin.step * change, interval);
     if (twin.cost * twin.step / step > kWorthwhile * compared.cost) return;
     StepControl& steps = controlOf(simulation, twin.stepper);
     steps = {.step = step, .calibration = 1.0};
-    calibrate(steps, compared.distance, twin.estimate);
+    calibrate(steps, error, twin.estimate);
     simulation.stepper = twin.stepper;
     simulation.restriction = {};
     simulation.cache->energy.reset();  // steppers know the energy at different moments of a step
-    simulation.automatic.nextCandidate = simulation.automatic.intervalCount + kCandidatePause;
 }
 
-/// Decides when another stepper is tried: soon, where something else than the error limits the steps of velocity
-/// Verlet; where the error does, not before that is known again.
-void planCandidate(Simulation& simulation, bool isFarBelow) {
-    AutoState& state = simulation.automatic;
-    if (simulation.stepper != kExplicit) return;
-    if (!isFarBelow)
-        state.nextCandidate = std::max(state.nextCandidate, state.nextTwin + 1);
-    else if (state.intervalCount >= state.nextCandidate)
-        state.nextTwin = state.intervalCount + 1;
+/// Whether the next twin is to be of another stepper. Velocity Verlet is left only where something else than the error
+/// limits its steps.
+bool isCandidateDue(const Simulation& simulation, double interval) {
+    const AutoState& state = simulation.automatic;
+    return state.twinCount > 0 && state.intervalCount >= state.nextCandidate &&
+           (state.isLimited || simulation.stepper != kCandidates.front()) &&
+           state.runCostPerSecond * interval >= kLeastCost;
 }
 
 /// Learns from the twin if the run has got to its end.
@@ -120,31 +147,46 @@ void finishTwin(Simulation& simulation, double interval) {
         if (state.twin.stepper != simulation.stepper)
             judgeCandidate(simulation, compared, interval);
         else
-            planCandidate(simulation, learnFromTwin(simulation, compared));
+            learnFromTwin(simulation, compared);
+        if (state.isLimited && isCandidateDue(simulation, interval)) state.nextTwin = state.intervalCount + 1;
     }
     state.twin = {};
+}
+
+/// Sends another stepper ahead.
+void sendNextCandidate(Simulation& simulation, double interval) {
+    AutoState& state = simulation.automatic;
+    const StepperKind candidate = nextCandidate(simulation, interval);
+    const double ratio = isVerlet(candidate) == isVerlet(simulation.stepper) ? 1.0
+                         : isVerlet(candidate)                               ? 1.0 / kLongerImplicit
+                                                                             : kLongerImplicit;
+    controlOf(simulation, candidate).step = std::min(interval, ratio * controlOf(simulation, simulation.stepper).step);
+    state.lastCandidate = candidate;
+    sendCandidate(simulation, candidate, interval, state.runCostPerSecond);
 }
 
 /// Starts a twin if it is time for one.
 void startTwin(Simulation& simulation, double interval) {
     AutoState& state = simulation.automatic;
     if (state.twin.exists) return;
-    const StepControl& inUse = controlOf(simulation, simulation.stepper);
-    const bool isShorter = inUse.step < kShorter * state.stepAtTwin;
-    if (state.intervalCount < state.nextTwin && !isShorter) return;
-    const bool isCandidate = state.twinCount > 0 && state.intervalCount >= state.nextCandidate;
-    if (isCandidate) {
-        StepControl& other = controlOf(simulation, otherThan(simulation.stepper));
-        if (other.step == 0.0) other.step = std::min(interval, kLongerImplicit * inUse.step);
-        const double perSecond = state.runCostPerSecond;
-        state.nextCandidate = state.intervalCount + kCandidatePause;
-        sendCandidate(simulation, otherThan(simulation.stepper), interval, perSecond);
+    const std::uint64_t duration = twinIntervals(interval);
+    const bool isCostlier = state.runCostPerSecond > kCostlier * state.costAtTwin &&
+                            state.intervalCount >= state.lastTwin + kShortestPause * duration;
+    if (state.intervalCount < state.nextTwin && !isCostlier) return;
+    if (isCandidateDue(simulation, interval)) {
+        sendNextCandidate(simulation, interval);
+        // Where something else than the error limits the steps, both others are tried, one after the other.
+        state.isSecond = state.isLimited && !state.isSecond;
+        state.nextCandidate = state.intervalCount + (state.isSecond ? 1 : kCandidatePause * duration);
     } else {
-        sendTwin(simulation, interval);
+        sendTwin(simulation, interval, state.twinCount == 0 ? kAnyCost : state.runCostPerSecond);
+        state.isLimited = !state.twin.exists;
     }
-    state.stepAtTwin = inUse.step;
+    state.lastTwin = state.intervalCount;
+    state.costAtTwin = state.runCostPerSecond;
     const std::uint64_t doublings = std::min<std::uint64_t>(8, state.twinCount - 1);
-    state.nextTwin = state.intervalCount + std::min(kLongestPause, kFirstPause << doublings);
+    state.nextTwin = state.intervalCount + duration * std::min(kLongestPause, kFirstPause << doublings);
+    if (!state.twin.exists && isCandidateDue(simulation, interval)) state.nextTwin = state.intervalCount + 1;
 }
 
 /// Smallest radius of the particles, m. There must be at least one particle.
@@ -167,7 +209,10 @@ double acceptableResidual(const Simulation& simulation) {
 }
 
 bool isReachable(const AutoState& state, StepperKind inUse) {
-    if (inUse != kExplicit && inUse != kImplicit) return false;
+    const auto isCandidate = [](StepperKind stepper) {
+        return std::ranges::find(kCandidates, stepper) != kCandidates.end();
+    };
+    if (!isCandidate(inUse) || !isCandidate(state.lastCandidate)) return false;
     return std::ranges::all_of(state.controls, isPossible) && state.twin.position.size() == state.twin.id.size();
 }
 
@@ -186,8 +231,7 @@ void advanceAutomatically(Simulation& simulation, double time) {
     startTwin(simulation, interval);
     const double costBefore = forceEvaluationsOf(simulation);
     ErrorControl errors{controlOf(simulation, simulation.stepper), simulation.setup.error};
-    constexpr double kAny = std::numeric_limits<double>::infinity();
-    advanceChecked(simulation, time, interval, StepLimit::error, kAny, &errors);
+    advanceChecked(simulation, time, interval, StepLimit::error, kAnyCost, &errors);
     controlOf(simulation, simulation.stepper) = errors.steps;
     state.twin.runEstimate += errors.estimate;
     state.runCostPerSecond = (forceEvaluationsOf(simulation) - costBefore) / interval;

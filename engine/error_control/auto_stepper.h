@@ -7,9 +7,9 @@
 
 namespace engine {
 
-/// Largest number of intervals from one twin to the next; at the start of a run they are closer together. Chosen by
-/// cost: a twin goes ahead by at most twelve intervals, in steps 1.5 times as long as those of the run.
-inline constexpr std::uint64_t kLongestPause = 32;
+/// Longest pause from the start of a twin to that of the next, in durations of a twin. Chosen by cost: the steps of a
+/// twin are 1.5 times as long as those of the run.
+inline constexpr std::uint64_t kLongestPause = 5;
 
 /// Largest number of copies of the simulation that exist beside it.
 inline constexpr std::size_t kTrialRuns = 1;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "engine/error_control/checked_steps.h"
@@ -13,70 +14,83 @@
 namespace engine {
 namespace {
 
-/// Runs the copy to the end of the twin and keeps its positions; returns whether it got there.
-bool runAhead(Simulation& ahead, ErrorControl& errors, double interval, double mostEvaluations, TwinRun& twin) {
-    ahead.setup.world.reset();  // the run removes particles, too, and those left are compared
-    ahead.steps = {};
-    const std::uint32_t firstNew = ahead.particles.nextId;
-    const double count = std::min(kMostTwinIntervals, stepCount(kTwinSeconds, interval));
-    twin.start = ahead.time;
-    twin.end = ahead.time + count * interval;
-    for (double k = 1.0; k <= count; ++k) {
-        const double left = mostEvaluations - forceEvaluationsOf(ahead);
-        const double end = k == count ? twin.end : twin.start + k * interval;
-        if (!advanceChecked(ahead, end, interval, StepLimit::error, left, &errors)) return false;
-    }
-    const double seconds = twin.end - twin.start;
+/// Intervals whose cost a candidate may be ahead of the run, before its first steps have found their length. Chosen.
+constexpr double kCandidateCredit = 1.0;
+
+/// Keeps the end of a copy of the simulation that has run ahead of it.
+void keep(Simulation& simulation, const Simulation& ahead, const ErrorControl& errors) {
+    TwinRun& twin = simulation.automatic.twin;
+    const double seconds = ahead.time - simulation.time;
+    twin.exists = true;
     twin.stepper = ahead.stepper;
+    twin.start = simulation.time;
+    twin.end = ahead.time;
     twin.step = seconds / static_cast<double>(ahead.steps.count);
     twin.nextStep = errors.steps.step;
     twin.estimate = errors.estimate / seconds;
     twin.cost = forceEvaluationsOf(ahead) / seconds;
     // Particles that are emitted on the way are not compared: one that finds no room in the twin gives its id to the
     // next.
-    const auto known = std::ranges::lower_bound(ahead.particles.id, firstNew) - ahead.particles.id.begin();
+    const auto firstNew = std::ranges::lower_bound(ahead.particles.id, simulation.particles.nextId);
+    const auto known = firstNew - ahead.particles.id.begin();
     twin.position.assign(ahead.particles.position.begin(), ahead.particles.position.begin() + known);
-    twin.id.assign(ahead.particles.id.begin(), ahead.particles.id.begin() + known);
-    return true;
+    twin.id.assign(ahead.particles.id.begin(), firstNew);
+    twin.runSteps = static_cast<double>(simulation.steps.count);
+    twin.runCost = forceEvaluationsOf(simulation);
 }
 
-/// Sends a twin of the stepper that `ahead`, a copy of the simulation, has in use.
-void send(Simulation& simulation, Simulation&& ahead, ErrorControl errors, double interval, double mostEvaluations) {
-    AutoState& state = simulation.automatic;
-    TwinRun twin;
+/// Copies the simulation, lets `run` advance the copy, and keeps its end if `run` returns true.
+void send(Simulation& simulation, ErrorControl errors,
+          const std::function<bool(Simulation& ahead, ErrorControl& errors)>& run) {
+    Simulation ahead = simulation;
+    ahead.setup.world.reset();  // the run removes particles, too, and those left are compared
+    ahead.steps = {};
+    errors.steps.stepBefore = 0.0;
+    simulation.automatic.twin = {};
     try {
-        twin.exists = runAhead(ahead, errors, interval, mostEvaluations, twin);
+        if (run(ahead, errors)) keep(simulation, ahead, errors);
     } catch (const InstabilityError&) {
         // The run, with its shorter steps, may not become unstable.
     }
-    state.estimateCost += forceEvaluationsOf(ahead);
-    ++state.twinCount;
-    twin.runSteps = static_cast<double>(simulation.steps.count);
-    twin.runCost = forceEvaluationsOf(simulation);
-    state.twin = std::move(twin);
+    simulation.automatic.estimateCost += forceEvaluationsOf(ahead);
+    ++simulation.automatic.twinCount;
 }
 
 }  // namespace
 
-void sendTwin(Simulation& simulation, double interval) {
-    Simulation ahead = simulation;
+std::uint64_t twinIntervals(double interval) {
+    constexpr double kMost = 12.0;  // chosen
+    return static_cast<std::uint64_t>(std::min(kMost, stepCount(kTwinSeconds, interval)));
+}
+
+void sendTwin(Simulation& simulation, double interval, double mostPerSecond) {
     const StepperKind stepper = simulation.stepper;
+    const double seconds = interval * static_cast<double>(twinIntervals(interval));
     ErrorControl errors{simulation.automatic.controls[static_cast<std::size_t>(stepper)],
                         simulation.setup.error / errorRatio(stepper, 1.0 / kTwinFactor)};
     errors.steps.step *= kTwinFactor;
-    errors.steps.stepBefore = 0.0;
-    send(simulation, std::move(ahead), errors, interval, std::numeric_limits<double>::infinity());
+    // The twin's steps do not end with the intervals, or they might be as long as those of the run.
+    send(simulation, errors, [&](Simulation& ahead, ErrorControl& control) {
+        return advanceChecked(ahead, simulation.time + seconds, kTwinFactor * interval, StepLimit::error,
+                              mostPerSecond * seconds, &control);
+    });
 }
 
 void sendCandidate(Simulation& simulation, StepperKind stepper, double interval, double mostPerSecond) {
-    Simulation ahead = simulation;
-    ahead.stepper = stepper;
-    ahead.restriction = {};
-    ahead.cache->energy.reset();  // steppers know the energy at different moments of a step
-    ErrorControl errors{simulation.automatic.controls[static_cast<std::size_t>(stepper)], simulation.setup.error};
-    errors.steps.stepBefore = 0.0;
-    const double seconds = interval * std::min(kMostTwinIntervals, stepCount(kTwinSeconds, interval));
-    send(simulation, std::move(ahead), errors, interval, mostPerSecond * seconds);
+    const ErrorControl errors{simulation.automatic.controls[static_cast<std::size_t>(stepper)], simulation.setup.error};
+    const double count = std::ceil(0.5 * static_cast<double>(twinIntervals(interval)));
+    send(simulation, errors, [&](Simulation& ahead, ErrorControl& control) {
+        ahead.stepper = stepper;
+        ahead.restriction = {};
+        ahead.cache->energy.reset();  // steppers know the energy at different moments of a step
+        for (double k = 1.0; k <= count; ++k) {
+            const double allowed = mostPerSecond * interval * std::min(count, k + kCandidateCredit);
+            const double end = simulation.time + k * interval;
+            if (!advanceChecked(ahead, end, interval, StepLimit::error, allowed - forceEvaluationsOf(ahead), &control))
+                return false;
+        }
+        return true;
+    });
 }
 
 Comparison compareWithTwin(const Simulation& simulation) {

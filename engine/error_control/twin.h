@@ -7,20 +7,24 @@
 
 namespace engine {
 
-/// Duration of a twin, s, rounded up to whole intervals, of which it has at most kMostTwinIntervals. Chosen: as long as
-/// an impact takes, and short enough that later collisions do not multiply the errors of the impact.
+/// Duration of a twin, s, rounded up to whole intervals. Chosen: as long as an impact takes, and short enough that
+/// later collisions do not multiply the errors of the impact.
 inline constexpr double kTwinSeconds = 0.2;
-inline constexpr double kMostTwinIntervals = 12.0;
+
+/// Number of intervals of the given length (s) that a twin lasts; at most twelve.
+std::uint64_t twinIntervals(double interval);
 
 /// Factor by which the steps of a twin of the stepper in use are longer than those of the run.
 inline constexpr double kTwinFactor = 1.5;
 
-/// Starts a twin of the stepper in use. Its steps are controlled like those of the run, for a larger error.
-/// @param interval  length of an interval, s
-void sendTwin(Simulation& simulation, double interval);
-
-/// Starts a twin of another stepper, which is given up, and leaves no twin, when it has cost as much as the run will.
+/// Starts a twin of the stepper in use. Its steps are controlled like those of the run, for a larger error. It is given
+/// up, and leaves no twin, when it has cost more than the run, with its shorter steps, will.
+/// @param interval       length of an interval, s
 /// @param mostPerSecond  what the run costs, force evaluations per second of motion
+void sendTwin(Simulation& simulation, double interval, double mostPerSecond);
+
+/// Starts a twin of another stepper, which lasts half as long and is given up, and leaves no twin, as soon as it has
+/// cost clearly more than the run will until then.
 void sendCandidate(Simulation& simulation, StepperKind stepper, double interval, double mostPerSecond);
 
 /// What a twin has taught about the run, when the run has got as far.

@@ -141,8 +141,8 @@ void exchangeAutomatic(Archive& archive, State& state) {
     auto& twin = state.twin;
     archive(twin.exists, twin.stepper, twin.start, twin.end, twin.step, twin.nextStep, twin.estimate, twin.cost);
     archive(twin.position, twin.id, twin.runSteps, twin.runCost, twin.runEstimate);
-    archive(state.intervalCount, state.twinCount, state.nextTwin, state.nextCandidate, state.stepAtTwin);
-    archive(state.runCostPerSecond);
+    archive(state.intervalCount, state.twinCount, state.lastTwin, state.nextTwin, state.nextCandidate);
+    archive(state.runCostPerSecond, state.costAtTwin, state.isLimited, state.isSecond, state.lastCandidate);
     archive(state.estimateCount, state.errorSum, state.largestError, state.estimateCost);
 }
 

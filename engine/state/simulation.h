@@ -86,14 +86,18 @@ struct AutoState {
     TwinRun twin;
     std::uint64_t intervalCount = 0;  ///< number of intervals run so far
     std::uint64_t twinCount = 0;      ///< number of twins so far
+    std::uint64_t lastTwin = 0;       ///< index of the interval in which the last twin started
     std::uint64_t nextTwin = 0;       ///< index of the interval in which the next twin starts
     std::uint64_t nextCandidate = 0;  ///< index of the interval from which the next twin may be of another stepper
     double runCostPerSecond = 0.0;    ///< cost of the last interval, force evaluations per second of motion
-    double stepAtTwin = 0.0;          ///< step that was wanted when the last twin started, s
-    std::uint64_t estimateCount = 0;  ///< number of intervals with an error estimate so far
-    double errorSum = 0.0;            ///< sum of the error estimates of intervals, radii per second
-    double largestError = 0.0;        ///< largest error estimate of an interval, radii per second
-    double estimateCost = 0.0;        ///< force evaluations spent on twins
+    double costAtTwin = 0.0;          ///< runCostPerSecond when the last twin started
+    bool isLimited = false;           ///< whether something else than the error limits the steps, as far as is known
+    bool isSecond = false;            ///< whether the next candidate follows the last one without a pause
+    StepperKind lastCandidate = StepperKind::velocityVerlet;  ///< the stepper that was tried last
+    std::uint64_t estimateCount = 0;                          ///< number of intervals with an error estimate so far
+    double errorSum = 0.0;      ///< sum of the error estimates of intervals, radii per second
+    double largestError = 0.0;  ///< largest error estimate of an interval, radii per second
+    double estimateCost = 0.0;  ///< force evaluations spent on twins
 };
 
 /// How far scaled walls let particles in, measured at the ends of frames.

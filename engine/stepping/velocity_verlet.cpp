@@ -70,7 +70,8 @@ void velocityVerletStep(Simulation& simulation, double h, double lambda) {
         const ContactSums contacts = resolvedContacts(simulation, p, predicted[p]);
         particles.velocity[p] += halfKick(particles, p, h, simulation.cache->forces[p] + contacts.force);
         const double radius = particles.radius[p];
-        const double errorSq = squaredLength(particles.velocity[p] - predicted[p]) / (radius * radius);
+        const Vec3 missing = particles.velocity[p] - predicted[p] - (1.0 - lambda) * h * simulation.setup.gravity;
+        const double errorSq = squaredLength(missing) / (radius * radius);
         return EndOfStep{particleEnergy(simulation, p, contacts.energy), errorSq};
     });
     simulation.cache->forcesCurrent = true;
