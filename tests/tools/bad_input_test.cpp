@@ -187,7 +187,7 @@ TEST_CASE("bench refuses a filter that no row contains, and names the rows", "[t
 TEST_CASE("The message of an unstable run names the keys that have an effect", "[tools]") {
     // Nozzles whose particles overlap from the start.
     const std::string stiff =
-        "check powder --quiet --set material[0].b1=1e12 --set emitter[0].pick=all --set emitter[0].jitter=0.25 "
+        "check powder --quiet --set material[0].b1=1e22 --set emitter[0].pick=all --set emitter[0].jitter=0.25 "
         "--set emitter[0].clearance=0.9 --set physics.stepper=";
     const auto automatic = run(stiff + "auto");
     INFO(automatic.err);

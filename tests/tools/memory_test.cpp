@@ -77,8 +77,8 @@ TEST_CASE("A run takes no more memory than check says, and not much less", "[too
     const program::Folder folder;
     const auto scene = [&](double height) {
         const std::string path = (folder / "block.toml").string();
-        std::ofstream(path) << "title = \"block\"\nduration = 0.1\n[physics]\nstepper = \"auto\"\n"
-                               "[material]\npreset = \"liquid\"\n[[body]]\nshape = \"box\"\njitter = 0.02\n"
+        std::ofstream(path) << "title = \"block\"\nduration = 0.4\n[physics]\nstepper = \"auto\"\n"
+                               "[material]\npreset = \"honey\"\n[[body]]\nshape = \"box\"\njitter = 0.02\n"
                                "minimum = [-3, 0.2, -3]\nmaximum = [3, "
                             << height
                             << ", 3]\n"
