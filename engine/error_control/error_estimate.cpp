@@ -17,10 +17,6 @@ namespace {
 /// ratio h'/h of their mean steps is near 1 where the check of energy has shortened the steps of both. Chosen.
 constexpr double kLeastContrast = 0.3;
 
-/// Largest factor by which one measurement changes a step. Chosen: for larger changes the error no longer behaves like
-/// a power of the step.
-constexpr double kMostChange = 3.0;
-
 /// Runs the simulation to the end of the trial in steps no longer than `step` (s); returns whether it reached the end.
 bool run(Simulation& simulation, const TrialRun& trialRun, double step, double mostEvaluations) {
     if (simulation.stepper != trialRun.stepper) {
@@ -50,21 +46,16 @@ double difference(const Particles& a, const Particles& b, std::size_t count, dou
 
 }  // namespace
 
-Trial measure(const Simulation& simulation, const TrialRun& trialRun, Simulation* finer) {
+Trial measure(const Simulation& simulation, const TrialRun& trialRun) {
     const double interval = trialRun.time - simulation.time;
     Trial trial;
-    trial.stepper = trialRun.stepper;
     // One run after the other in the same memory, so that an estimate holds one simulation more and not two.
     Simulation there = simulation;
     trial.finished = run(there, trialRun, trialRun.step, trialRun.mostEvaluations);
     trial.spent = forceEvaluationsOf(there);
     if (!trial.finished) return trial;
     const auto meanStep = [&] { return interval / static_cast<double>(there.steps.count); };
-    trial.asked = interval / stepCount(interval, trialRun.step);
     trial.step = meanStep();
-    trial.cost = forceEvaluationsOf(there) / interval;
-    if (there.steps.rejected > 0 || there.restriction.seconds < trialRun.step)
-        trial.restriction = there.restriction.reason;
     const Particles coarse = std::move(there.particles);
     there = simulation;
     // The second run takes half the mean step of the first run, whose steps may have been shortened by rejections and
@@ -75,28 +66,7 @@ Trial measure(const Simulation& simulation, const TrialRun& trialRun, Simulation
     const double contrast = std::max(kLeastContrast, 1.0 - errorRatio(trialRun.stepper, meanStep() / trial.step));
     const std::size_t count = simulation.particles.count();
     trial.error = difference(coarse, there.particles, count, trialRun.horizon) / contrast / interval;
-    if (finer == nullptr) return trial;
-    *finer = std::move(there);
-    finer->cache->implicit = {};  // the matrix is large, and several runs may be kept
     return trial;
-}
-
-double wantedStep(const Trial& trial, double wanted) {
-    const double change = trial.error > 0.0 ? stepRatio(trial.stepper, wanted / trial.error) : kMostChange;
-    // If rejections have limited the steps, a larger wanted error does not allow longer ones; if only emissions have,
-    // it does.
-    if (trial.restriction || change < 1.0) return trial.step * std::clamp(change, 1.0 / kMostChange, 1.0);
-    return trial.asked * std::min(change, kMostChange);
-}
-
-double stepRatioTo(const Trial& trial, double step) {
-    return step / (step > trial.step ? trial.asked : trial.step);
-}
-
-double costAt(const Trial& trial, double step) {
-    if (trial.restriction) return trial.cost / stepRatioTo(trial, step);
-    const double endedEarly = std::max(0.0, 1.0 / trial.step - 1.0 / trial.asked);  // 1/s
-    return trial.cost * trial.step * (1.0 / step + endedEarly);
 }
 
 }  // namespace engine

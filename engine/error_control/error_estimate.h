@@ -1,9 +1,8 @@
 // Estimates the error of a run by step doubling: the same interval is run with a step and with half that step. Called
-// by the automatic stepper to choose steps, and by the loops over frames to report errors.
+// for runs with a fixed step (error_samples.h); the automatic stepper has estimates of its own (step_control.h).
 #pragma once
 
 #include <limits>
-#include <optional>
 
 #include "engine/state/simulation.h"
 
@@ -26,38 +25,17 @@ struct TrialRun {
 
 /// Results of the two runs of an error estimate.
 struct Trial {
-    StepperKind stepper = StepperKind::velocityVerlet;
     bool finished = true;  ///< whether both runs got to the end; else only `spent` is of use
-    double asked = 0.0;    ///< longest step that the first run was allowed to take, s
     double step = 0.0;     ///< mean step of the first run, s
     double error = 0.0;    ///< error at the mean step, radii per second of motion
-    double cost = 0.0;     ///< cost at the mean step, force evaluations per second
     double spent = 0.0;    ///< force evaluations of both runs together
-    /// Reason of the last rejection, if steps of the first run were rejected (step_audit.h) or restricted.
-    std::optional<StepLimit> restriction;
 };
 
-/// Measures error and cost of a stepper from the present state to a given time. The interval is run with steps h and
-/// then with steps h' of half the length. With the differences dx and dv of positions and velocities at the end, and
-/// the horizon T, the error is the RMS over the particles of dx + T dv, in radii, divided by the interval and, by
+/// Measures the error of a stepper from the present state to a given time. The interval is run with steps h and then
+/// with steps h' of half the length. With the differences dx and dv of positions and velocities at the end, and the
+/// horizon T, the error is the RMS over the particles of dx + T dv, in radii, divided by the interval and, by
 /// Richardson's argument for a stepper of order p, by 1 - (h'/h)^p.
-/// @param finer  if given, receives the simulation at the end of the run with the shorter steps
 /// @throws InstabilityError if one of the runs becomes unstable
-Trial measure(const Simulation& simulation, const TrialRun& trialRun, Simulation* finer = nullptr);
-
-/// Shorter steps are wasted if the error stays above this share. With steps 1.5 times shorter, a method of second order
-/// should have an error 2.2 times smaller; otherwise the error has another cause, for example a swept contact.
-inline constexpr double kWasted = 0.7;
-
-/// The step (s) at which the error would be the wanted error (radii per second), within the range to which a
-/// measurement can be extrapolated.
-double wantedStep(const Trial& trial, double wanted);
-
-/// Ratio of a step (s) to the step at which the trial was measured.
-double stepRatioTo(const Trial& trial, double step);
-
-/// Predicted cost of a run with steps no longer than `step` (s), in force evaluations per second of motion. Emissions
-/// are assumed to cut short the same number of steps at any step length.
-double costAt(const Trial& trial, double step);
+Trial measure(const Simulation& simulation, const TrialRun& trialRun);
 
 }  // namespace engine

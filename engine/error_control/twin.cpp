@@ -26,7 +26,6 @@ void keep(Simulation& simulation, const Simulation& ahead, const ErrorControl& e
     twin.start = simulation.time;
     twin.end = ahead.time;
     twin.step = seconds / static_cast<double>(ahead.steps.count);
-    twin.nextStep = errors.steps.step;
     twin.estimate = errors.estimate / seconds;
     twin.cost = forceEvaluationsOf(ahead) / seconds;
     // Particles that are emitted on the way are not compared: one that finds no room in the twin gives its id to the

@@ -71,7 +71,6 @@ struct TwinRun {
     double start = 0.0;             ///< s
     double end = 0.0;               ///< s
     double step = 0.0;              ///< mean step, s
-    double nextStep = 0.0;          ///< step that was wanted at the end, s
     double estimate = 0.0;          ///< mean of the estimates of its steps, without calibration, radii per second
     double cost = 0.0;              ///< force evaluations per second of motion
     std::vector<Vec3> position;     ///< at the end, m
