@@ -37,6 +37,10 @@ constexpr std::uint64_t kShortestPause = 2;
 /// Chosen.
 constexpr double kCostlier = 2.0;
 
+/// A twin of the stepper in use is given up when it has cost more than the run does at present, by this factor where
+/// particles are emitted: they end the steps of both, and make the run more costly. Chosen.
+constexpr double kCostOfEmissions = 2.0;
+
 /// Pause from one candidate to the next, in durations of a twin. Chosen: a candidate costs at most what the run costs
 /// in the time of a twin.
 constexpr std::uint64_t kCandidatePause = 15;
@@ -88,42 +92,47 @@ StepperKind nextCandidate(const Simulation& simulation, double interval) {
                : notLast(StepperKind::leapfrog, StepperKind::linearlyImplicit);
 }
 
-/// Corrects the calibration of a stepper by a measured error and the mean estimate of the same steps.
+/// Corrects the calibration of a stepper by a measured error and the mean estimate of the same steps. What comes next
+/// may err more for the same estimate, for example an impact after a fall, and less is believed only by and by.
 void calibrate(StepControl& steps, double error, double estimate) {
     if (!(error > 0.0 && estimate > 0.0)) return;
-    const double seen = std::clamp(error / estimate, kLeastCalibration, kMostCalibration);
-    steps.calibration = steps.isCalibrated ? std::sqrt(seen * steps.calibration) : seen;
+    constexpr double kLess = 1.0 / 4.0;
+    constexpr double kMore = 16.0;
+    const double seen = std::clamp(error / estimate, kLess * steps.calibration, kMore * steps.calibration);
+    const double mean = steps.isCalibrated ? std::sqrt(seen * steps.calibration) : seen;
+    steps.calibration = std::clamp(mean, kLeastCalibration, kMostCalibration);
     steps.isCalibrated = true;
 }
 
+/// Whether steps that the error does not limit are worth another stepper.
+bool areManySteps(const AutoState& state, double interval) {
+    return state.runCostPerSecond * interval >= kLeastCost;
+}
+
 /// Learns from a twin of the stepper in use.
-void learnFromTwin(Simulation& simulation, const Comparison& compared) {
+void learnFromTwin(Simulation& simulation, const Comparison& compared, double interval) {
     AutoState& state = simulation.automatic;
     // The errors of the two are to each other as their estimates, and the distance between them is the difference.
     const double contrast = state.twin.estimate / compared.estimate - 1.0;
-    state.isLimited = true;
+    state.isLimited = !state.twin.hasEmissions && areManySteps(state, interval);
     if (!(contrast >= kLeastContrast)) return;
     const double error = compared.distance / contrast;
     calibrate(controlOf(simulation, simulation.stepper), error, compared.estimate);
-    state.isLimited = error < kFarBelow * simulation.setup.error;
+    state.isLimited = error < kFarBelow * simulation.setup.error && areManySteps(state, interval);
 }
 
 /// Takes the stepper of the twin if it costs less at the step with which it meets the wanted error.
 void judgeCandidate(Simulation& simulation, const Comparison& compared, double interval) {
     const TwinRun& twin = simulation.automatic.twin;
     if (!(compared.distance > 0.0)) return;
-    // The distance is that of independent errors: the squares of both add up.
-    const double distanceSq = compared.distance * compared.distance;
-    const double errorOfRun = controlOf(simulation, simulation.stepper).calibration * compared.estimate;
-    const double error = std::sqrt(std::max(0.25 * distanceSq, distanceSq - errorOfRun * errorOfRun));
     constexpr double kMostChange = 3.0;  // beyond it the error no longer follows a power of the step; chosen
     const double change =
-        std::clamp(stepRatio(twin.stepper, simulation.setup.error / error), 1.0 / kMostChange, kMostChange);
+        std::clamp(stepRatio(twin.stepper, simulation.setup.error / compared.distance), 1.0 / kMostChange, kMostChange);
     const double step = std::min(twin.step * change, interval);
     if (twin.cost * twin.step / step > kWorthwhile * compared.cost) return;
     StepControl& steps = controlOf(simulation, twin.stepper);
     steps = {.step = step, .calibration = 1.0};
-    calibrate(steps, error, twin.estimate);
+    calibrate(steps, compared.distance, twin.estimate);
     simulation.stepper = twin.stepper;
     simulation.restriction = {};
     simulation.cache->energy.reset();  // steppers know the energy at different moments of a step
@@ -134,8 +143,7 @@ void judgeCandidate(Simulation& simulation, const Comparison& compared, double i
 bool isCandidateDue(const Simulation& simulation, double interval) {
     const AutoState& state = simulation.automatic;
     return state.twinCount > 0 && state.intervalCount >= state.nextCandidate &&
-           (state.isLimited || simulation.stepper != kCandidates.front()) &&
-           state.runCostPerSecond * interval >= kLeastCost;
+           (state.isLimited || simulation.stepper != kCandidates.front()) && areManySteps(state, interval);
 }
 
 /// Learns from the twin if the run has got to its end.
@@ -147,7 +155,7 @@ void finishTwin(Simulation& simulation, double interval) {
         if (state.twin.stepper != simulation.stepper)
             judgeCandidate(simulation, compared, interval);
         else
-            learnFromTwin(simulation, compared);
+            learnFromTwin(simulation, compared, interval);
         if (state.isLimited && isCandidateDue(simulation, interval)) state.nextTwin = state.intervalCount + 1;
     }
     state.twin = {};
@@ -165,6 +173,11 @@ void sendNextCandidate(Simulation& simulation, double interval) {
     sendCandidate(simulation, candidate, interval, state.runCostPerSecond);
 }
 
+/// Whether particles are emitted in the time that a twin lasts.
+bool isEmitting(const Simulation& simulation, double interval) {
+    return nextEmission(simulation) < simulation.time + interval * static_cast<double>(twinIntervals(interval));
+}
+
 /// Starts a twin if it is time for one.
 void startTwin(Simulation& simulation, double interval) {
     AutoState& state = simulation.automatic;
@@ -177,10 +190,13 @@ void startTwin(Simulation& simulation, double interval) {
         sendNextCandidate(simulation, interval);
         // Where something else than the error limits the steps, both others are tried, one after the other.
         state.isSecond = state.isLimited && !state.isSecond;
-        state.nextCandidate = state.intervalCount + (state.isSecond ? 1 : kCandidatePause * duration);
+        state.nextCandidate = state.intervalCount + (state.isSecond ? 0 : kCandidatePause * duration);
     } else {
-        sendTwin(simulation, interval, state.twinCount == 0 ? kAnyCost : state.runCostPerSecond);
-        state.isLimited = !state.twin.exists;
+        const double most = state.twinCount == 0 ? kAnyCost : state.runCostPerSecond;
+        const bool hasEmissions = isEmitting(simulation, interval);
+        sendTwin(simulation, interval, hasEmissions ? kCostOfEmissions * most : most);
+        state.twin.hasEmissions = hasEmissions;
+        state.isLimited = !state.twin.exists && !hasEmissions && areManySteps(state, interval);
     }
     state.lastTwin = state.intervalCount;
     state.costAtTwin = state.runCostPerSecond;
