@@ -30,6 +30,10 @@ constexpr double kCutShort = 0.1;
 constexpr double kLeastRatio = 1e-4;
 constexpr double kMostRatio = 1e4;
 
+/// Limits on calibrations. Measured: in the scenes of the library they lie between 0.05 and 10.
+constexpr double kLeastCalibration = 0.1;
+constexpr double kMostCalibration = 50.0;
+
 /// RMS over the particles of h^2/6 times the slope of the mean accelerations, in radii per second.
 double fromMeanAccelerations(Simulation& simulation, const SavedState& before, double h) {
     StepCache& cache = *simulation.cache;
@@ -79,6 +83,23 @@ void control(StepControl& steps, StepperKind stepper, double h, double estimate,
     steps.ratioBefore = ratio;
     steps.stepBefore = steps.step;
     steps.step = std::max(kShortestStep, steps.step * std::clamp(factor, kLeastFactor, kMostFactor));
+}
+
+void calibrate(StepControl& steps, double error, double estimate) {
+    if (!(error > 0.0 && estimate > 0.0)) return;
+    constexpr double kLess = 1.0 / 4.0;
+    constexpr double kMore = 16.0;
+    const double seen = std::clamp(error / estimate, kLess * steps.calibration, kMore * steps.calibration);
+    const double mean = steps.isCalibrated ? std::sqrt(seen * steps.calibration) : seen;
+    steps.calibration = std::clamp(mean, kLeastCalibration, kMostCalibration);
+    steps.isCalibrated = true;
+}
+
+bool isPossible(const StepControl& steps) {
+    const bool isUnused = steps.step == 0.0;
+    return (isUnused || steps.step >= kShortestStep) && std::isfinite(steps.step) && steps.stepBefore >= 0.0 &&
+           std::isfinite(steps.stepBefore) && steps.ratioBefore > 0.0 && steps.calibration >= kLeastCalibration &&
+           steps.calibration <= kMostCalibration;
 }
 
 bool isRefused(const StepControl& steps, double estimate, double wanted) {

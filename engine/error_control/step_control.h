@@ -28,6 +28,19 @@ std::optional<double> estimateStep(Simulation& simulation, const SavedState& bef
 /// @param wanted    error that is wanted, radii per second of motion
 void control(StepControl& steps, StepperKind stepper, double h, double estimate, double wanted);
 
+/// Corrects the calibration of a stepper by a measured error and the mean estimate of the same steps, both in radii per
+/// second of motion. What comes next may err more for the same estimate, for example an impact after a fall, and less
+/// is believed only by and by.
+void calibrate(StepControl& steps, double error, double estimate);
+
+/// The control of a stepper.
+inline StepControl& controlOf(Simulation& simulation, StepperKind stepper) {
+    return simulation.automatic.controls[static_cast<std::size_t>(stepper)];
+}
+
+/// Whether the numbers of a control are possible values; NaNs are not. Checked for those that come from a file.
+bool isPossible(const StepControl& steps);
+
 /// Whether the error of a step is so far above the wanted one that the step is taken back.
 bool isRefused(const StepControl& steps, double estimate, double wanted);
 

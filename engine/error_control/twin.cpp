@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "engine/error_control/checked_steps.h"
+#include "engine/error_control/step_control.h"
 #include "engine/error_control/step_cost.h"
 #include "engine/stepping/step_cache.h"
 #include "engine/stepping/take_step.h"
@@ -65,7 +66,7 @@ std::uint64_t twinIntervals(double interval) {
 void sendTwin(Simulation& simulation, double interval, double mostPerSecond) {
     const StepperKind stepper = simulation.stepper;
     const double seconds = interval * static_cast<double>(twinIntervals(interval));
-    ErrorControl errors{simulation.automatic.controls[static_cast<std::size_t>(stepper)],
+    ErrorControl errors{controlOf(simulation, stepper),
                         simulation.setup.error / errorRatio(stepper, 1.0 / kTwinFactor)};
     errors.steps.step *= kTwinFactor;
     // The twin's steps do not end with the intervals, or they might be as long as those of the run.
@@ -76,7 +77,7 @@ void sendTwin(Simulation& simulation, double interval, double mostPerSecond) {
 }
 
 void sendCandidate(Simulation& simulation, StepperKind stepper, double interval, double mostPerSecond) {
-    const ErrorControl errors{simulation.automatic.controls[static_cast<std::size_t>(stepper)], simulation.setup.error};
+    const ErrorControl errors{controlOf(simulation, stepper), simulation.setup.error};
     const double count = std::ceil(0.5 * static_cast<double>(twinIntervals(interval)));
     send(simulation, errors, [&](Simulation& ahead, ErrorControl& control) {
         ahead.stepper = stepper;
