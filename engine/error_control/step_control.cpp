@@ -30,8 +30,9 @@ constexpr double kCutShort = 0.1;
 constexpr double kLeastRatio = 1e-4;
 constexpr double kMostRatio = 1e4;
 
-/// Limits on calibrations. Measured: in the scenes of the library they lie between 0.05 and 10.
-constexpr double kLeastCalibration = 0.1;
+/// Limits on calibrations. Measured: in the scenes of the library they lie between 0.05 and 10. With smaller ones than
+/// this limit steps are hardly longer, and impacts after calm motion err more.
+constexpr double kLeastCalibration = 0.4;
 constexpr double kMostCalibration = 50.0;
 
 /// RMS over the particles of h^2/6 times the slope of the mean accelerations, in radii per second.
