@@ -52,7 +52,7 @@ void learnFromTwin(Simulation& simulation, const Comparison& compared, double in
     AutoState& state = simulation.automatic;
     // The errors of the two are to each other as their estimates, and the distance between them is the difference.
     const double contrast = state.twin.estimate / compared.estimate - 1.0;
-    state.isLimited = !state.twin.hasEmissions && areManySteps(state, interval);
+    state.isLimited = areManySteps(state, interval);
     if (!(contrast >= kLeastContrast)) return;
     const double error = compared.distance / contrast;
     calibrate(controlOf(simulation, simulation.stepper), error, compared.estimate);
@@ -93,8 +93,7 @@ void startTwin(Simulation& simulation, double interval) {
         const double most = state.twinCount == 0 ? kAnyCost : state.runCostPerSecond;
         const bool hasEmissions = isEmitting(simulation, interval);
         sendTwin(simulation, interval, hasEmissions ? kCostOfEmissions * most : most);
-        state.twin.hasEmissions = hasEmissions;
-        state.isLimited = !state.twin.exists && !hasEmissions && areManySteps(state, interval);
+        state.isLimited = !state.twin.exists && areManySteps(state, interval);
     }
     state.lastTwin = state.intervalCount;
     state.costAtTwin = state.runCostPerSecond;

@@ -139,7 +139,7 @@ void exchangeAutomatic(Archive& archive, State& state) {
     for (auto& steps : state.controls)
         archive(steps.step, steps.stepBefore, steps.ratioBefore, steps.calibration, steps.isCalibrated);
     auto& twin = state.twin;
-    archive(twin.exists, twin.hasEmissions, twin.stepper, twin.start, twin.end, twin.step, twin.estimate, twin.cost);
+    archive(twin.exists, twin.stepper, twin.start, twin.end, twin.step, twin.estimate, twin.cost);
     archive(twin.position, twin.id, twin.runSteps, twin.runCost, twin.runEstimate);
     archive(state.intervalCount, state.twinCount, state.lastTwin, state.nextTwin, state.nextCandidate);
     archive(state.runCostPerSecond, state.costAtTwin, state.isLimited, state.isSecond, state.lastCandidate);

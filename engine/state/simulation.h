@@ -67,7 +67,6 @@ struct StepControl {
 /// A trial run that has gone ahead of the run, and with which the run is compared when it gets as far.
 struct TwinRun {
     bool exists = false;
-    bool hasEmissions = false;  ///< whether particles are emitted on the way
     StepperKind stepper = StepperKind::velocityVerlet;
     double start = 0.0;             ///< s
     double end = 0.0;               ///< s
