@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/error_control/checked_steps.h"
 #include "engine/error_control/error_estimate.h"
@@ -43,7 +44,8 @@ constexpr double kLeastContrast = 0.3;
 /// be: something else than the error limits them. Chosen.
 constexpr double kFarBelow = 0.25;
 
-/// Velocity that the implicit steppers' solver may leave out, as a share of the wanted error divided by kErrorHorizon.
+/// Acceleration that the implicit steppers' solver may leave out, as a share of the wanted error divided by
+/// kErrorHorizon.
 /// Chosen: small compared with the error of the step itself.
 constexpr double kSolverShare = 0.2;
 
@@ -107,6 +109,14 @@ double smallestRadius(const Particles& particles) {
     return *std::min_element(particles.radius.begin(), particles.radius.end());
 }
 
+/// Whether the stored numbers of a twin are possible values; NaNs are not.
+bool isPossible(const TwinRun& twin) {
+    if (twin.position.size() != twin.id.size()) return false;
+    const bool isFinite = std::isfinite(twin.step) && std::isfinite(twin.cost) && std::isfinite(twin.estimate);
+    return !twin.exists || (isCandidate(twin.stepper) && isFinite && twin.start < twin.end &&
+                            twin.step >= kShortestStep && twin.cost > 0.0);
+}
+
 }  // namespace
 
 double acceptableResidual(const Simulation& simulation) {
@@ -115,7 +125,8 @@ double acceptableResidual(const Simulation& simulation) {
 
 bool isReachable(const AutoState& state, StepperKind inUse) {
     if (!isCandidate(inUse) || !isCandidate(state.lastCandidate)) return false;
-    return std::ranges::all_of(state.controls, isPossible) && state.twin.position.size() == state.twin.id.size();
+    return std::ranges::all_of(state.controls, [](const StepControl& steps) { return isPossible(steps); }) &&
+           isPossible(state.twin);
 }
 
 void advanceAutomatically(Simulation& simulation, double time) {

@@ -30,8 +30,8 @@ constexpr double kCutShort = 0.1;
 constexpr double kLeastRatio = 1e-4;
 constexpr double kMostRatio = 1e4;
 
-/// Limits on calibrations. Measured: in the scenes of the library they lie between 0.05 and 10. With smaller ones than
-/// this limit steps are hardly longer, and impacts after calm motion err more.
+/// Limits on calibrations. In the scenes of the library 0.05 to 10 are measured. Below the lower limit they are not
+/// believed: steps gain little, and the first impact after calm motion errs more.
 constexpr double kLeastCalibration = 0.4;
 constexpr double kMostCalibration = 50.0;
 

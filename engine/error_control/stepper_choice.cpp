@@ -30,8 +30,8 @@ constexpr double kLeastCost = 8.0;
 /// Another stepper is taken if it costs less than this share of the stepper in use. Chosen.
 constexpr double kWorthwhile = 0.8;
 
-/// The stepper that is tried next. Steps that something else than the error limits get at most twice as long by
-/// leapfrog, and as long as an interval by the implicit stepper.
+/// The stepper that is tried next. Leapfrog at most doubles a step that damping limits; the implicit stepper may take a
+/// whole interval. So the implicit one is tried first where doubled steps would still cost more than kLeastCost.
 StepperKind nextCandidate(const Simulation& simulation, double interval) {
     const AutoState& state = simulation.automatic;
     const auto notLast = [&](StepperKind first, StepperKind second) {

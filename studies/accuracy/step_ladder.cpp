@@ -8,7 +8,7 @@
 namespace studies {
 namespace {
 
-/// The last step of the ladder is a frame over 2^(kLastRung / 2), 1024. Chosen: far below any useful step.
+/// Last rung of the ladder, whose step is a frame over 1448. Chosen: far below any useful step.
 constexpr int kLastRung = 20;
 
 /// From this share of rejected steps on, shorter steps may cost less. Chosen.

@@ -226,6 +226,23 @@ TEST_CASE("A checkpoint of a state that no run leads to is refused", "[checkpoin
     CHECK(complaintAfter([&](Simulation& s) { s.automatic.controls[1].ratioBefore = nan; }) == steps);
     CHECK(complaintAfter([&](Simulation& s) { s.automatic.controls[1].calibration = nan; }) == steps);
     CHECK(complaintAfter([](Simulation& s) { s.automatic.twin.id.push_back(0); }) == steps);
+    TwinRun twin;
+    twin.exists = true;
+    twin.end = 1.0;
+    twin.step = 0.01;
+    twin.cost = 100.0;
+    CHECK(complaintAfter([&](Simulation& s) { s.automatic.twin = twin; }) != steps);
+    const auto complaintOfTwin = [&](auto&& damage) {
+        return complaintAfter([&](Simulation& s) {
+            s.automatic.twin = twin;
+            damage(s.automatic.twin);
+        });
+    };
+    CHECK(complaintOfTwin([](TwinRun& t) { t.stepper = StepperKind::symplecticEuler; }) == steps);
+    CHECK(complaintOfTwin([&](TwinRun& t) { t.step = nan; }) == steps);
+    CHECK(complaintOfTwin([](TwinRun& t) { t.step = 0.0; }) == steps);
+    CHECK(complaintOfTwin([](TwinRun& t) { t.cost = 0.0; }) == steps);
+    CHECK(complaintOfTwin([](TwinRun& t) { t.end = t.start; }) == steps);
 
     CHECK(complaintAfter([&](Simulation& s) { s.particles.velocity[0].y() = nan; }) == "a velocity is not finite");
 }
