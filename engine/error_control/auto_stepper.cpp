@@ -23,17 +23,19 @@ constexpr double kAnyCost = std::numeric_limits<double>::infinity();
 /// First step, in intervals. Chosen: the filter finds the right one within some steps.
 constexpr double kFirstStep = 1.0 / 8.0;
 
-/// Pauses from the start of a twin to that of the next, in durations of a twin: after the first, from which it is
-/// doubled up to kLongestPause, and the least before a twin that starts early. Chosen.
+/// Pause from the start of the first twin to that of the second, in durations of a twin. It is doubled after every
+/// twin, candidates included, up to kLongestPause. Chosen.
 constexpr std::uint64_t kFirstPause = 2;
+
+/// Pause before a twin that starts early, in durations of a twin. Chosen.
 constexpr std::uint64_t kShortestPause = 2;
 
 /// The next twin starts early if an interval costs more, by this factor, than one did when the last twin started.
 /// Chosen.
 constexpr double kCostlier = 2.0;
 
-/// A twin of the stepper in use is given up when it has cost more than the run does at present, by this factor where
-/// particles are emitted: they end the steps of both, and make the run more costly. Chosen.
+/// A twin may cost as much as the run does at present, and this many times as much if particles are emitted meanwhile,
+/// because emissions end its steps, too, and new particles make the run dearer. Chosen.
 constexpr double kCostOfEmissions = 2.0;
 
 /// Smallest difference of the estimates of the run and of a twin of its stepper, as a share of the run's, from which
@@ -149,7 +151,6 @@ void advanceAutomatically(Simulation& simulation, double time) {
     state.twin.runEstimate += errors.estimate;
     state.runCostPerSecond = (forceEvaluationsOf(simulation) - costBefore) / interval;
     const double error = errors.steps.calibration * errors.estimate / interval;
-    ++state.estimateCount;
     state.errorSum += error;
     state.largestError = std::max(state.largestError, error);
     finishTwin(simulation, interval);

@@ -34,11 +34,11 @@ bool run(Simulation& simulation, const TrialRun& trialRun, double step, double m
 }
 
 /// RMS of dx + T dv over the first `count` particles, in radii, where dx and dv are the differences of positions and
-/// velocities and T is the horizon (s).
-double difference(const Particles& a, const Particles& b, std::size_t count, double horizon) {
+/// velocities and T is kErrorHorizon.
+double difference(const Particles& a, const Particles& b, std::size_t count) {
     double sumSq = 0.0;
     for (std::size_t p = 0; p < count; ++p) {
-        const Vec3 apart = a.position[p] - b.position[p] + horizon * (a.velocity[p] - b.velocity[p]);
+        const Vec3 apart = a.position[p] - b.position[p] + kErrorHorizon * (a.velocity[p] - b.velocity[p]);
         sumSq += squaredLength(apart) / (a.radius[p] * a.radius[p]);
     }
     return count == 0 ? 0.0 : std::sqrt(sumSq / static_cast<double>(count));
@@ -65,7 +65,7 @@ Trial measure(const Simulation& simulation, const TrialRun& trialRun) {
     if (!trial.finished) return trial;
     const double contrast = std::max(kLeastContrast, 1.0 - errorRatio(trialRun.stepper, meanStep() / trial.step));
     const std::size_t count = simulation.particles.count();
-    trial.error = difference(coarse, there.particles, count, trialRun.horizon) / contrast / interval;
+    trial.error = difference(coarse, there.particles, count) / contrast / interval;
     return trial;
 }
 

@@ -18,7 +18,6 @@ struct TrialRun {
     double time = 0.0;  ///< time at which the runs end, s
     StepperKind stepper = StepperKind::velocityVerlet;
     double step = 0.0;                                                 ///< longest step of the first run, s
-    double horizon = kErrorHorizon;                                    ///< error horizon for velocities, s
     double mostEvaluations = std::numeric_limits<double>::infinity();  ///< most force evaluations of the first run
     double mostOfFiner = std::numeric_limits<double>::infinity();      ///< most force evaluations of the second run
 };
@@ -33,8 +32,8 @@ struct Trial {
 
 /// Measures the error of a stepper from the present state to a given time. The interval is run with steps h and then
 /// with steps h' of half the length. With the differences dx and dv of positions and velocities at the end, and the
-/// horizon T, the error is the RMS over the particles of dx + T dv, in radii, divided by the interval and, by
-/// Richardson's argument for a stepper of order p, by 1 - (h'/h)^p.
+/// horizon T = kErrorHorizon, the error is the RMS over the particles of dx + T dv, in radii, divided by the interval
+/// and, by Richardson's argument for a stepper of order p, by 1 - (h'/h)^p.
 /// @throws InstabilityError if one of the runs becomes unstable
 Trial measure(const Simulation& simulation, const TrialRun& trialRun);
 

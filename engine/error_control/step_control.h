@@ -11,10 +11,11 @@ namespace engine {
 
 /// Estimate of the position error that the step of h seconds from the saved state has made, in radii per second of
 /// motion, but for a factor that depends on the motion, the calibration of StepControl. Nothing where there is no
-/// estimate: without particles, and for the first step of an implicit stepper. To be called once after every accepted
-/// step.
+/// estimate: without particles, and for an implicit step without one before it. To be called once for every step that
+/// the audit accepts.
 ///
-/// - Velocity Verlet: rms(|v - v_p| / r) / 3, where v is the velocity at the end of the step and v_p the one that was
+/// - Velocity Verlet, and leapfrog without the part of gravity: rms(|v - v_p| / r) / 3, where v is the velocity at the
+/// end of the step and v_p the one that was
 ///   predicted for its damping. Without damping v - v_p = h/2 (a_1 - a_0), so that this is the local error of the
 ///   positions, h^3/6 times the slope of the acceleration, over h.
 /// - Implicit steppers: the same with the slope of the mean accelerations of this step and the one before.

@@ -15,7 +15,8 @@
 namespace engine {
 namespace {
 
-/// Intervals whose cost a candidate may be ahead of the run, before its first steps have found their length. Chosen.
+/// A candidate may have spent this many intervals' cost more than the run would have, because its first steps do not
+/// have the right length yet. Chosen.
 constexpr double kCandidateCredit = 1.0;
 
 /// Keeps the end of a copy of the simulation that has run ahead of it.
@@ -35,7 +36,6 @@ void keep(Simulation& simulation, const Simulation& ahead, const ErrorControl& e
     const auto known = firstNew - ahead.particles.id.begin();
     twin.position.assign(ahead.particles.position.begin(), ahead.particles.position.begin() + known);
     twin.id.assign(ahead.particles.id.begin(), firstNew);
-    twin.runSteps = static_cast<double>(simulation.steps.count);
     twin.runCost = forceEvaluationsOf(simulation);
 }
 
@@ -110,9 +110,7 @@ Comparison compareWithTwin(const Simulation& simulation) {
     }
     const double seconds = twin.end - twin.start;
     const double rms = both == 0 ? 0.0 : std::sqrt(sumSq / static_cast<double>(both));
-    const double steps = static_cast<double>(simulation.steps.count) - twin.runSteps;
-    return {rms / seconds, seconds / std::max(1.0, steps), twin.runEstimate / seconds,
-            (forceEvaluationsOf(simulation) - twin.runCost) / seconds};
+    return {rms / seconds, twin.runEstimate / seconds, (forceEvaluationsOf(simulation) - twin.runCost) / seconds};
 }
 
 }  // namespace engine

@@ -30,7 +30,6 @@ void sendCandidate(Simulation& simulation, StepperKind stepper, double interval,
 /// What a twin has taught about the run, when the run has got as far.
 struct Comparison {
     double distance = 0.0;  ///< RMS distance of the particles of the two, radii per second of motion
-    double step = 0.0;      ///< mean step of the run, s
     double estimate = 0.0;  ///< mean estimate of the run's steps, without calibration, radii per second
     double cost = 0.0;      ///< of the run, force evaluations per second of motion
 };

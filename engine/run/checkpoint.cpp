@@ -140,10 +140,10 @@ void exchangeAutomatic(Archive& archive, State& state) {
         archive(steps.step, steps.stepBefore, steps.ratioBefore, steps.calibration, steps.isCalibrated);
     auto& twin = state.twin;
     archive(twin.exists, twin.stepper, twin.start, twin.end, twin.step, twin.estimate, twin.cost);
-    archive(twin.position, twin.id, twin.runSteps, twin.runCost, twin.runEstimate);
+    archive(twin.position, twin.id, twin.runCost, twin.runEstimate);
     archive(state.intervalCount, state.twinCount, state.lastTwin, state.nextTwin, state.nextCandidate);
     archive(state.runCostPerSecond, state.costAtTwin, state.isLimited, state.isSecond, state.lastCandidate);
-    archive(state.estimateCount, state.errorSum, state.largestError, state.estimateCost);
+    archive(state.errorSum, state.largestError, state.estimateCost);
 }
 
 template <class Archive, class Statistics>

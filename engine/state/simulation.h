@@ -75,15 +75,15 @@ struct TwinRun {
     double cost = 0.0;              ///< force evaluations per second of motion
     std::vector<Vec3> position;     ///< at the end, m
     std::vector<std::uint32_t> id;  ///< of the particles at the end, ascending
-    double runSteps = 0.0;          ///< number of steps that the run had taken at the start
     double runCost = 0.0;           ///< what the run had cost at the start, force evaluations
     double runEstimate = 0.0;       ///< integral of the estimates of the run's steps since the start, radii
 };
 
+/// What the automatic stepper remembers from one interval to the next; see error_control/auto_stepper.h.
 struct AutoState {
     std::array<StepControl, kStepperKinds> controls;  ///< by StepperKind
     TwinRun twin;
-    std::uint64_t intervalCount = 0;  ///< number of intervals run so far
+    std::uint64_t intervalCount = 0;  ///< number of intervals run so far, each with an error estimate
     std::uint64_t twinCount = 0;      ///< number of twins so far
     std::uint64_t lastTwin = 0;       ///< index of the interval in which the last twin started
     std::uint64_t nextTwin = 0;       ///< index of the interval in which the next twin starts
@@ -93,7 +93,6 @@ struct AutoState {
     bool isLimited = false;           ///< whether something else than the error limits the steps, as far as is known
     bool isSecond = false;            ///< whether the next candidate follows the last one without a pause
     StepperKind lastCandidate = StepperKind::velocityVerlet;  ///< the stepper that was tried last
-    std::uint64_t estimateCount = 0;                          ///< number of intervals with an error estimate so far
     double errorSum = 0.0;      ///< sum of the error estimates of intervals, radii per second
     double largestError = 0.0;  ///< largest error estimate of an interval, radii per second
     double estimateCost = 0.0;  ///< force evaluations spent on twins

@@ -46,7 +46,8 @@ std::optional<LadderPoint> measurePoint(const std::vector<WholeWindow>& windows,
     listener(all, "windows");
     if (all.ending == Ending::tooSlow) return std::nullopt;
     const double mean = all.ending == Ending::unstable ? kInfinity : errors / static_cast<double>(windows.size());
-    const double rejected = static_cast<double>(all.steps.rejected) / static_cast<double>(all.steps.count);
+    const double rejected =
+        static_cast<double>(all.steps.rejected) / static_cast<double>(std::max<std::uint64_t>(1, all.steps.count));
     return LadderPoint{variant.asked, mean, all.evaluationCost, rejected};
 }
 

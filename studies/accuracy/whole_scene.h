@@ -54,7 +54,7 @@ struct WholeScene {
     double seconds = 0.0;           ///< wall-clock time of its run, trial runs included
     std::vector<WholeWindowError> windows;
     std::vector<FixedPoint> ladder;    ///< everything that was measured in the windows
-    std::vector<FixedWholeRun> fixed;  ///< those that cost at most twice as much as the best one
+    std::vector<FixedWholeRun> fixed;  ///< finished, and at most twice as dear in the windows as the best one
 
     /// Everything that the automatic stepper has spent, force evaluations.
     double evaluationCost() const { return runEvaluations + trialEvaluations; }

@@ -222,5 +222,5 @@ TEST_CASE("An empty scene and one that fills later run automatically", "[auto-st
     REQUIRE(simulation.particles.count() == 2);
     // Nothing acts on them until they are 0.6 m apart, which they are.
     CHECK(simulation.particles.position[0].y() == Approx(6 * 0.19).epsilon(1e-12));  // roundings of some dozen steps
-    CHECK(simulation.automatic.estimateCount > 0);
+    CHECK(simulation.automatic.intervalCount > 0);
 }

@@ -23,7 +23,7 @@ TEST_CASE("A missed rate, a missed error and walls in trouble are said, and noth
     simulation.time = 15 * emitter.interval;
     scene.tables.hasRate = {true};
     simulation.setup.error = 0.05;
-    simulation.automatic.estimateCount = 4;
+    simulation.automatic.intervalCount = 4;
     simulation.automatic.errorSum = 16.0;
     simulation.steps.held = 1;
     simulation.wallDepths.centersOutside = 3;

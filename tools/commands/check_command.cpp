@@ -64,8 +64,8 @@ Json predictionJson(const scenes::Scene& scene, const Preview& preview) {
     const auto& limits = preview.steps.limitedBy;
     json["limited_by"] = ifKnown(engine::nameOf(
         static_cast<engine::StepLimit>(std::max_element(limits.begin(), limits.end()) - limits.begin())));
-    json["error"] = preview.automatic.estimateCount > 0
-                        ? Json(preview.automatic.errorSum / static_cast<double>(preview.automatic.estimateCount))
+    json["error"] = preview.automatic.intervalCount > 0
+                        ? Json(preview.automatic.errorSum / static_cast<double>(preview.automatic.intervalCount))
                         : Json(nullptr);
     const Forecast found = forecast.value_or(Forecast{});
     json["steps"] = forecast ? Json(std::llround(found.steps)) : Json(nullptr);
@@ -74,7 +74,7 @@ Json predictionJson(const scenes::Scene& scene, const Preview& preview) {
     json["seconds_most"] = ifForecast(found.mostSeconds);
     json["processor_share"] = preview.seconds > 0.0 ? preview.processorSeconds / preview.seconds : 1.0;
     json["strays"] = engine::strayCount(preview.simulation);
-    // A column gets further, to the error estimates of more steppers, which take most of the memory.
+    // A column gets further, to the twins of more steppers, which take most of the memory.
     json["bytes_per_particle"] = std::max(preview.bytesPerParticle, column ? column->bytesPerParticle : 0);
     json["bytes_of_materials"] = preview.bytesOfMaterials;
     return json;

@@ -61,7 +61,7 @@ Json stepsJson(const engine::StepStatistics& steps, double estimateCost) {
 engine::ErrorSamples errorsOf(const engine::Simulation& simulation, const engine::ErrorSamples& samples) {
     if (simulation.setup.stepper != engine::StepperKind::automatic) return samples;
     const engine::AutoState& state = simulation.automatic;
-    return {static_cast<int>(state.estimateCount), state.errorSum, state.largestError, state.estimateCost};
+    return {static_cast<int>(state.intervalCount), state.errorSum, state.largestError, state.estimateCost};
 }
 
 Json errorJson(const engine::Simulation& simulation, const engine::ErrorSamples& samples) {

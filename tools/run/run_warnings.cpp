@@ -40,8 +40,8 @@ std::vector<std::string> troublesOf(const scenes::Scene& scene, const engine::Si
     std::vector<std::string> troubles;
     if (const std::string missed = missedRates(scene, simulation); !missed.empty()) troubles.push_back(missed);
     const engine::AutoState& automatic = simulation.automatic;
-    if (automatic.estimateCount > 0) {
-        const double error = automatic.errorSum / static_cast<double>(automatic.estimateCount);
+    if (automatic.intervalCount > 0) {
+        const double error = automatic.errorSum / static_cast<double>(automatic.intervalCount);
         const double wanted = simulation.setup.error;
         if (isErrorMissed(error, wanted))
             troubles.push_back(
