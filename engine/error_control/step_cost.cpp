@@ -24,11 +24,7 @@ ImplicitCosts implicitCosts(const Setup& setup) {
 double forceEvaluationsOf(const Simulation& simulation) {
     const StepStatistics& steps = simulation.steps;
     const ImplicitCosts costs = implicitCosts(simulation.setup);
-    const auto takenBy = [&](StepperKind stepper) {
-        return static_cast<double>(steps.takenBy[static_cast<std::size_t>(stepper)]);
-    };
-    const double matrices = takenBy(StepperKind::implicitDamping) + takenBy(StepperKind::linearlyImplicit);
-    return static_cast<double>(steps.forceEvaluations) + costs.matrix * matrices +
+    return static_cast<double>(steps.forceEvaluations) + costs.matrix * static_cast<double>(steps.matrices) +
            costs.product * static_cast<double>(steps.products);
 }
 

@@ -18,8 +18,9 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian");
 
-/// Version of the checkpoint format: kCheckpointMark in ASCII and a digit, another for every change of what is stored.
-constexpr std::uint64_t kFormat = 0x39504B434C424C47;
+/// Version of the checkpoint format: kCheckpointMark in ASCII and a digit or capital, another for every change of
+/// what is stored.
+constexpr std::uint64_t kFormat = 0x41504B434C424C47;
 
 constexpr std::size_t kChecksumBytes = 8;
 
@@ -148,8 +149,8 @@ void exchangeAutomatic(Archive& archive, State& state) {
 
 template <class Archive, class Statistics>
 void exchangeStatistics(Archive& archive, Statistics& steps) {
-    archive(steps.count, steps.shortest, steps.longest, steps.forceEvaluations, steps.products, steps.rejected,
-            steps.held);
+    archive(steps.count, steps.shortest, steps.longest, steps.forceEvaluations, steps.matrices, steps.products,
+            steps.rejected, steps.held);
     for (auto& count : steps.limitedBy) archive(count);
     for (auto& count : steps.takenBy) archive(count);
 }

@@ -18,6 +18,7 @@ StepStatistics& StepStatistics::operator+=(const StepStatistics& other) {
     longest = std::max(longest, other.longest);
     count += other.count;
     forceEvaluations += other.forceEvaluations;
+    matrices += other.matrices;
     products += other.products;
     rejected += other.rejected;
     held += other.held;

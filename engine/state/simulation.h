@@ -36,7 +36,8 @@ struct StepStatistics {
     double shortest = 0.0;               ///< s
     double longest = 0.0;                ///< s
     std::uint64_t forceEvaluations = 0;  ///< number of passes over all pairs of particles
-    std::uint64_t products = 0;          ///< number of products of the implicit steppers' matrix
+    std::uint64_t matrices = 0;          ///< number of matrices of the implicit steppers
+    std::uint64_t products = 0;          ///< number of products of vectors with these matrices
     std::uint64_t rejected = 0;          ///< number of steps taken back and retried at half the length
     std::uint64_t held = 0;              ///< how often a surface of an obstacle held a particle's center
     std::array<std::uint64_t, kStepLimits> limitedBy{};  ///< number of steps that each StepLimit has limited

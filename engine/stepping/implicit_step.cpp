@@ -38,6 +38,7 @@ void kick(Simulation& simulation, double h, const MatrixWeights& weights) {
     const double pairEnergy = simulation.cache->evaluator.assemble(particles, weights, simulation.cache->forces,
                                                                    simulation.cache->implicit.matrix, h);
     ++simulation.steps.forceEvaluations;
+    ++simulation.steps.matrices;
     inParallel(particles.count(), contactGrain(simulation.setup.obstacles), [&](std::size_t p) {
         simulation.cache->forces[p] += resolvedContacts(simulation, p, particles.velocity[p]).force;
     });

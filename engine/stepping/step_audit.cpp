@@ -170,6 +170,7 @@ void restore(Simulation& simulation, const SavedState& saved) {
     const StepStatistics spent = simulation.steps;
     simulation.steps = saved.steps;
     simulation.steps.forceEvaluations = spent.forceEvaluations;
+    simulation.steps.matrices = spent.matrices;
     simulation.steps.products = spent.products;
     simulation.steps.rejected = spent.rejected;
 }

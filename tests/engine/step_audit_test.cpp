@@ -69,9 +69,16 @@ TEST_CASE("A step that gains energy is rejected, and restoring leaves nothing of
         restore(simulation, saved);
         takeStep(simulation, 0.02);
         CHECK(rejectionReason(simulation, saved));
+        const StepStatistics spent = simulation.steps;
         restore(simulation, saved);
         CHECK(stateHash(simulation.particles) == before);
         CHECK(*simulation.cache->energy == energyBefore);
+        // What a rejected step has cost stays counted.
+        CHECK(spent.forceEvaluations > saved.steps.forceEvaluations);
+        CHECK(simulation.steps.forceEvaluations == spent.forceEvaluations);
+        CHECK(spent.matrices == saved.steps.matrices + (isVerlet(stepper) ? 0 : 2));
+        CHECK(simulation.steps.matrices == spent.matrices);
+        CHECK(simulation.steps.products == spent.products);
         takeStep(simulation, 1e-5);
         CHECK(stateHash(simulation.particles) == good);
     }

@@ -54,6 +54,7 @@ Json stepsJson(const engine::StepStatistics& steps, double estimateCost) {
             {"rejected", steps.rejected},
             {"force_evaluations", steps.forceEvaluations + ofEstimates},
             {"force_evaluations_of_error_estimates", ofEstimates},
+            {"matrices", steps.matrices},
             {"matrix_products", steps.products}};
 }
 
