@@ -13,6 +13,10 @@
 namespace engine {
 namespace {
 
+bool areFinite(const std::vector<Vec3>& vectors) {
+    return std::ranges::all_of(vectors, [](const Vec3& vector) { return vector.allFinite(); });
+}
+
 bool haveEqualLengths(const Simulation& simulation) {
     const std::size_t count = simulation.particles.count();
     bool areEqual = !simulation.cache->forcesCurrent || simulation.cache->forces.size() == count;
@@ -59,8 +63,11 @@ bool areStepsPossible(const Simulation& simulation) {
     const bool isKnown = simulation.setup.stepper == StepperKind::automatic
                              ? isReachable(simulation.automatic, simulation.stepper)
                              : simulation.stepper == simulation.setup.stepper;
-    // The comparison is false for a NaN.
-    return isKnown && restriction.seconds >= 0.5 * kShortestStep && isLimit(restriction.reason);
+    const StepCache& cache = *simulation.cache;
+    const bool isLastKnown = areFinite(cache.meanAccelerations) && std::isfinite(cache.lastStep);
+    // The comparisons are false for a NaN.
+    return isKnown && isLastKnown && cache.lastStep >= 0.0 && restriction.seconds >= 0.5 * kShortestStep &&
+           isLimit(restriction.reason);
 }
 
 }  // namespace
@@ -72,8 +79,7 @@ bool isInWorld(const std::vector<Vec3>& positions) {
 const char* stateError(const Simulation& simulation) {
     if (!haveEqualLengths(simulation)) return "its arrays are of different lengths";
     if (!isInWorld(simulation.particles.position)) return "a particle is not in the world";
-    if (!std::ranges::all_of(simulation.particles.velocity, [](const Vec3& v) { return v.allFinite(); }))
-        return "a velocity is not finite";
+    if (!areFinite(simulation.particles.velocity)) return "a velocity is not finite";
     if (!(simulation.time >= 0.0) || !std::isfinite(simulation.time)) return "its time is not finite";
     if (!areOfSetup(simulation)) return "its particles are not the scene's";
     if (!areOnSchedule(simulation)) return "a birth is not on its schedule";

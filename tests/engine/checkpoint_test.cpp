@@ -225,6 +225,8 @@ TEST_CASE("A checkpoint of a state that no run leads to is refused", "[checkpoin
     CHECK(complaintAfter([](Simulation& s) { s.automatic.controls[1].step = 1e-300; }) == steps);
     CHECK(complaintAfter([&](Simulation& s) { s.automatic.controls[1].ratioBefore = nan; }) == steps);
     CHECK(complaintAfter([&](Simulation& s) { s.automatic.controls[1].calibration = nan; }) == steps);
+    CHECK(complaintAfter([&](Simulation& s) { s.cache->lastStep = nan; }) == steps);
+    CHECK(complaintAfter([&](Simulation& s) { s.cache->meanAccelerations = {Vec3(0, nan, 0)}; }) == steps);
     CHECK(complaintAfter([](Simulation& s) { s.automatic.twin.id.push_back(0); }) == steps);
     TwinRun twin;
     twin.exists = true;
