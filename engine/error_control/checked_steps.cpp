@@ -109,7 +109,8 @@ bool advanceChecked(Simulation& simulation, double time, double longest, StepLim
             continue;
         }
         rejectedInRow = 0;
-        record(simulation.steps, h, restriction.seconds < wanted ? restriction.reason : reason, simulation.stepper);
+        const StepLimit chosen = errors != nullptr && errors->steps.step >= longest ? StepLimit::frame : reason;
+        record(simulation.steps, h, restriction.seconds < wanted ? restriction.reason : chosen, simulation.stepper);
         if (estimate) {
             errors->estimate += h * *estimate;
             control(errors->steps, simulation.stepper, h, *estimate, errors->wanted);
