@@ -42,9 +42,10 @@ constexpr double kCostOfEmissions = 2.0;
 /// anything is learned: a twin whose steps emissions or the audit have ended takes nearly the same ones. Chosen.
 constexpr double kLeastContrast = 0.3;
 
-/// The error is far below the wanted one if it is below this share of it, although the steps are as long as they can
-/// be: something else than the error limits them. Chosen.
-constexpr double kFarBelow = 0.25;
+/// Something else than the error limits the steps if the error is below this share of the wanted one, and below this
+/// share of the estimate: the estimate is then that of vibrations which stiff damping or forces excite. Chosen.
+constexpr double kFarBelow = 0.5;
+constexpr double kOverestimated = 0.25;
 
 /// Acceleration that the implicit steppers' solver may leave out, as a share of the wanted error divided by
 /// kErrorHorizon.
@@ -60,7 +61,8 @@ void learnFromTwin(Simulation& simulation, const Comparison& compared, double in
     if (!(contrast >= kLeastContrast)) return;
     const double error = compared.distance / contrast;
     calibrate(controlOf(simulation, simulation.stepper), error, compared.estimate);
-    state.isLimited = error < kFarBelow * simulation.setup.error && areManySteps(state, interval);
+    const bool isOverestimated = error < kOverestimated * compared.estimate;
+    state.isLimited = isOverestimated && error < kFarBelow * simulation.setup.error && areManySteps(state, interval);
 }
 
 /// Learns from the twin if the run has got to its end.
@@ -73,14 +75,8 @@ void finishTwin(Simulation& simulation, double interval) {
             judgeCandidate(simulation, compared, interval);
         else
             learnFromTwin(simulation, compared, interval);
-        if (state.isLimited && isCandidateDue(simulation, interval)) state.nextTwin = state.intervalCount + 1;
     }
     state.twin = {};
-}
-
-/// Whether particles are emitted in the time that a twin lasts.
-bool isEmitting(const Simulation& simulation, double interval) {
-    return nextEmission(simulation) < simulation.time + interval * static_cast<double>(twinIntervals(interval));
 }
 
 /// Starts a twin if it is time for one.
@@ -90,8 +86,9 @@ void startTwin(Simulation& simulation, double interval) {
     const std::uint64_t duration = twinIntervals(interval);
     const bool isCostlier = state.runCostPerSecond > kCostlier * state.costAtTwin &&
                             state.intervalCount >= state.lastTwin + kShortestPause * duration;
-    if (state.intervalCount < state.nextTwin && !isCostlier) return;
-    if (isCandidateDue(simulation, interval)) {
+    const bool isCandidate = isCandidateDue(simulation, interval);
+    if (state.intervalCount < state.nextTwin && !isCostlier && !(isCandidate && state.isLimited)) return;
+    if (isCandidate) {
         sendNextCandidate(simulation, interval);
     } else {
         const double most = state.twinCount == 0 ? kAnyCost : state.runCostPerSecond;
@@ -103,7 +100,6 @@ void startTwin(Simulation& simulation, double interval) {
     state.costAtTwin = state.runCostPerSecond;
     const std::uint64_t doublings = std::min<std::uint64_t>(8, state.twinCount - 1);
     state.nextTwin = state.intervalCount + duration * std::min(kLongestPause, kFirstPause << doublings);
-    if (!state.twin.exists && isCandidateDue(simulation, interval)) state.nextTwin = state.intervalCount + 1;
 }
 
 /// Smallest radius of the particles, m. There must be at least one particle.

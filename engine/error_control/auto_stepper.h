@@ -9,7 +9,7 @@ namespace engine {
 
 /// Longest pause from the start of a twin to that of the next, in durations of a twin. Chosen by cost: the steps of a
 /// twin are 1.5 times as long as those of the run.
-inline constexpr std::uint64_t kLongestPause = 5;
+inline constexpr std::uint64_t kLongestPause = 6;
 
 /// Largest number of copies of the simulation that exist beside it.
 inline constexpr std::size_t kTrialRuns = 1;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/error_control/checked_steps.h"
 #include "engine/error_control/step_control.h"
 #include "engine/stepping/step_cache.h"
 #include "engine/stepping/take_step.h"
@@ -21,7 +22,7 @@ constexpr double kLongerImplicit = 3.0;
 
 /// Pause from one candidate to the next, in durations of a twin. Chosen: a candidate costs at most what the run costs
 /// in the time of a twin.
-constexpr std::uint64_t kCandidatePause = 15;
+constexpr std::uint64_t kCandidatePause = 30;
 
 /// No other stepper is tried where an interval costs less, in force evaluations. Chosen: at least one step is taken in
 /// an interval, and an implicit step costs about half of this.
@@ -72,7 +73,9 @@ void sendNextCandidate(Simulation& simulation, double interval) {
     const double ratio = isVerlet(candidate) == isVerlet(simulation.stepper) ? 1.0
                          : isVerlet(candidate)                               ? 1.0 / kLongerImplicit
                                                                              : kLongerImplicit;
-    controlOf(simulation, candidate).step = std::min(interval, ratio * controlOf(simulation, simulation.stepper).step);
+    const double step = ratio * controlOf(simulation, simulation.stepper).step;
+    StepControl& steps = controlOf(simulation, candidate);
+    steps.step = std::max(kShortestStep, std::min(interval, step));
     state.lastCandidate = candidate;
     sendCandidate(simulation, candidate, interval, state.runCostPerSecond);
     // Where something else than the error limits the steps, both others are tried, one after the other.
@@ -84,10 +87,13 @@ void judgeCandidate(Simulation& simulation, const Comparison& compared, double i
     const TwinRun& twin = simulation.automatic.twin;
     if (!(compared.distance > 0.0)) return;
     constexpr double kMostChange = 3.0;  // beyond it the error no longer follows a power of the step; chosen
+    const double longest = isEmitting(simulation, interval) ? 1.0 : kMostChange;  // emissions end steps, too
     const double change =
-        std::clamp(stepRatio(twin.stepper, simulation.setup.error / compared.distance), 1.0 / kMostChange, kMostChange);
+        std::clamp(stepRatio(twin.stepper, simulation.setup.error / compared.distance), 1.0 / kMostChange, longest);
     const double step = std::min(twin.step * change, interval);
-    if (twin.cost * twin.step / step > kWorthwhile * compared.cost) return;
+    // Longer implicit steps are not cheaper per second of motion, because their matrix takes more products to solve.
+    const double costRatio = isVerlet(twin.stepper) ? twin.step / step : std::max(1.0, twin.step / step);
+    if (twin.cost * costRatio > kWorthwhile * compared.cost) return;
     StepControl& steps = controlOf(simulation, twin.stepper);
     steps = {.step = step, .calibration = 1.0};
     calibrate(steps, compared.distance, twin.estimate);

@@ -9,15 +9,34 @@
 #include "engine/error_control/checked_steps.h"
 #include "engine/error_control/step_control.h"
 #include "engine/error_control/step_cost.h"
+#include "engine/stepping/population.h"
 #include "engine/stepping/step_cache.h"
 #include "engine/stepping/take_step.h"
 
 namespace engine {
 namespace {
 
+/// Number of parts of a twin, at the end of each of which it is given up if it has cost too much. Chosen.
+constexpr double kPartsOfTwin = 2.0;
+
 /// A candidate may have spent this many intervals' cost more than the run would have, because its first steps do not
 /// have the right length yet. Chosen.
 constexpr double kCandidateCredit = 1.0;
+
+/// Advances the copy by equal parts, and gives up, with false, as soon as it has cost more than allowed until then.
+/// @param mostPerSecond  force evaluations per second of motion
+/// @param credit         force evaluations that it may have spent beyond that before the last part
+bool advanceWithin(Simulation& ahead, ErrorControl& errors, double seconds, double parts, double longest,
+                   double mostPerSecond, double credit) {
+    const double start = ahead.time;
+    for (double k = 1.0; k <= parts; ++k) {
+        const double most = mostPerSecond * seconds;
+        const double allowed = std::min(most, most * k / parts + credit) - forceEvaluationsOf(ahead);
+        if (!advanceChecked(ahead, start + seconds * k / parts, longest, StepLimit::error, allowed, &errors))
+            return false;
+    }
+    return true;
+}
 
 /// Keeps the end of a copy of the simulation that has run ahead of it.
 void keep(Simulation& simulation, const Simulation& ahead, const ErrorControl& errors) {
@@ -63,6 +82,10 @@ std::uint64_t twinIntervals(double interval) {
     return static_cast<std::uint64_t>(std::min(kMost, stepCount(kTwinSeconds, interval)));
 }
 
+bool isEmitting(const Simulation& simulation, double interval) {
+    return nextEmission(simulation) < simulation.time + interval * static_cast<double>(twinIntervals(interval));
+}
+
 void sendTwin(Simulation& simulation, double interval, double mostPerSecond) {
     const StepperKind stepper = simulation.stepper;
     const double seconds = interval * static_cast<double>(twinIntervals(interval));
@@ -71,25 +94,19 @@ void sendTwin(Simulation& simulation, double interval, double mostPerSecond) {
     errors.steps.step *= kTwinFactor;
     // The twin's steps do not end with the intervals, or they might be as long as those of the run.
     send(simulation, errors, [&](Simulation& ahead, ErrorControl& control) {
-        return advanceChecked(ahead, simulation.time + seconds, kTwinFactor * interval, StepLimit::error,
-                              mostPerSecond * seconds, &control);
+        return advanceWithin(ahead, control, seconds, kPartsOfTwin, kTwinFactor * interval, mostPerSecond, 0.0);
     });
 }
 
 void sendCandidate(Simulation& simulation, StepperKind stepper, double interval, double mostPerSecond) {
     const ErrorControl errors{controlOf(simulation, stepper), simulation.setup.error};
     const double count = std::ceil(0.5 * static_cast<double>(twinIntervals(interval)));
+    const double credit = kCandidateCredit * mostPerSecond * interval;
     send(simulation, errors, [&](Simulation& ahead, ErrorControl& control) {
         ahead.stepper = stepper;
         ahead.restriction = {};
         ahead.cache->energy.reset();  // steppers know the energy at different moments of a step
-        for (double k = 1.0; k <= count; ++k) {
-            const double allowed = mostPerSecond * interval * std::min(count, k + kCandidateCredit);
-            const double end = simulation.time + k * interval;
-            if (!advanceChecked(ahead, end, interval, StepLimit::error, allowed - forceEvaluationsOf(ahead), &control))
-                return false;
-        }
-        return true;
+        return advanceWithin(ahead, control, count * interval, count, interval, mostPerSecond, credit);
     });
 }
 

@@ -14,6 +14,10 @@ inline constexpr double kTwinSeconds = 0.2;
 /// Number of intervals of the given length (s) that a twin lasts; at most twelve.
 std::uint64_t twinIntervals(double interval);
 
+/// Whether particles are emitted in the time that a twin lasts.
+/// @param interval  length of an interval, s
+bool isEmitting(const Simulation& simulation, double interval);
+
 /// Factor by which the steps of a twin of the stepper in use are longer than those of the run.
 inline constexpr double kTwinFactor = 1.5;
 
