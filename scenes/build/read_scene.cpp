@@ -123,19 +123,25 @@ std::vector<EffectiveValue> effectiveValues(const Sections& sections) {
             const std::string_view name = key->name;
             if (!section->has(name)) continue;
             values.push_back({section->path().empty() ? std::string(name) : fmt::format("{}.{}", section->path(), name),
-                              section->canonical(name), std::string(key->unit), section->origin(name)});
+                              section->canonical(name), std::string(key->unit), section->origin(name),
+                              key->isSimulated});
         }
     }
     return values;
 }
 
-/// Hash of the values of all keys and of the files that the scene refers to. It is equal for scenes that mean the same,
-/// however they are written.
-std::string hashOf(const std::vector<EffectiveValue>& values, std::uint64_t contentHash) {
-    std::uint64_t hash = contentHash;
-    for (const EffectiveValue& value : values)
-        hash = engine::fnv1a(fmt::format("{} = {}\n", value.path, value.toml), hash);
-    return engine::hexadecimal(hash);
+/// Adds the hashes of the values of all keys and of the files that the scene refers to. They are equal for scenes that
+/// mean the same, however they are written.
+void addHashes(Scene& scene, std::uint64_t contentHash) {
+    std::uint64_t all = contentHash;
+    std::uint64_t simulated = contentHash;
+    for (const EffectiveValue& value : scene.values) {
+        const std::string line = fmt::format("{} = {}\n", value.path, value.toml);
+        all = engine::fnv1a(line, all);
+        if (value.isSimulated) simulated = engine::fnv1a(line, simulated);
+    }
+    scene.sceneHash = engine::hexadecimal(all);
+    scene.simulationHash = engine::hexadecimal(simulated);
 }
 
 BuildContext contextOf(const Sections& sections, const std::string& fileName, ProblemList& problems,
@@ -210,7 +216,7 @@ Scene readScene(std::string_view text, const std::string& fileName, const Overri
     scene.sourceName = fileName;
     scene.files = std::move(context.files);
     scene.values = effectiveValues(sections);
-    scene.sceneHash = hashOf(scene.values, context.contentHash);
+    addHashes(scene, context.contentHash);
     for (const Problem& warning : warnings.sorted()) scene.warnings.push_back(formatProblem(warning));
     return scene;
 }

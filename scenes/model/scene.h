@@ -22,6 +22,7 @@ struct EffectiveValue {
     std::string toml;  ///< the value as TOML text
     std::string unit;
     ValueOrigin origin = ValueOrigin::given;
+    bool isSimulated = true;  ///< whether the states of the particles may depend on it
 };
 
 /// Where the tables of a scene are in its file, in their order, for messages about what was made of them.
@@ -57,6 +58,9 @@ struct Scene {
     std::string sourceName;          ///< the file it was read from, as messages name it
     std::vector<std::filesystem::path> files;  ///< all files that it was read from, those that it names included
     std::string sceneHash;  ///< 16 hexadecimal digits: hash over the values of all keys and the files that they name
+    /// Hash as above, but over those values alone that the states of the particles may depend on. Scenes that have the
+    /// same may differ in duration, cameras, look and overlay, but have the same particles at the same frame.
+    std::string simulationHash;
     std::vector<EffectiveValue> values;
     SourceTables tables;
     std::vector<std::string> warnings;  ///< messages on what is valid but may not be meant

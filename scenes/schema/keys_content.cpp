@@ -153,13 +153,16 @@ std::vector<Key> obstacleKeys() {
             .within(kNotNegative),
         key("visible", Type::boolean, "", "whether the obstacle is drawn")
             .defaultsTo("true")
-            .onlyFor({"box", "container", "sphere"}),
+            .onlyFor({"box", "container", "sphere"})
+            .notSimulated(),
         key("edges", Type::boolean, "", "whether the edges are drawn as lines")
             .derivedAs("true for a container, false for a box")
-            .onlyFor({"box", "container"}),
+            .onlyFor({"box", "container"})
+            .notSimulated(),
         color("color", "color of the surface, or of the edges of a container")
             .derivedAs("gray; for a container look.edge_color")
-            .onlyFor({"box", "container", "sphere"}),
+            .onlyFor({"box", "container", "sphere"})
+            .notSimulated(),
     };
 }
 

@@ -7,10 +7,13 @@ namespace scenes {
 
 std::vector<Key> topKeys() {
     return {
-        key("title", Type::string, "", "what the scene shows").required(),
-        key("description", Type::string, "", "more about the scene").defaultsTo("\"\""),
+        key("title", Type::string, "", "what the scene shows").required().notSimulated(),
+        key("description", Type::string, "", "more about the scene").defaultsTo("\"\"").notSimulated(),
         // A duration of at most a million seconds keeps every frame number within 32 bits.
-        key("duration", Type::number, "s", "length of the animation").required().within({0.0, 1e6, true}),
+        key("duration", Type::number, "s", "length of the animation")
+            .required()
+            .within({0.0, 1e6, true})
+            .notSimulated(),
         key("fps", Type::frameRate, "1/s",
             "frames per second, also as a fraction such as \"30000/1001\"; frame k shows the time k / fps")
             .defaultsTo("30")
@@ -111,7 +114,7 @@ std::vector<Key> materialKeys() {
         key("core", Type::number, "", "share of the rest length below which the force grows no further")
             .derivedAs(preset)
             .within(kOpenUnitInterval),
-        color("color", "color of the particles").derivedAs("by preset"),
+        color("color", "color of the particles").derivedAs("by preset").notSimulated(),
     };
 }
 

@@ -74,13 +74,25 @@ const std::vector<TableInfo>& tables() {
          .help = "the point of view; [[camera]] for a path, where each inherits from the one before what it leaves out",
          .allowsList = true,
          .inheritsPrevious = true,
+         .isSimulated = false,
          .discriminator = "projection"},
-        {.name = "look", .subject = "[look]", .help = "how the scene is drawn", .discriminator = "color_by"},
-        {.name = "overlay", .subject = "[overlay]", .help = "text and scales drawn over the picture, for figures"},
-        {.name = "still", .subject = "[still]", .help = "the picture, or strip of pictures, that represents the scene"},
+        {.name = "look",
+         .subject = "[look]",
+         .help = "how the scene is drawn",
+         .isSimulated = false,
+         .discriminator = "color_by"},
+        {.name = "overlay",
+         .subject = "[overlay]",
+         .help = "text and scales drawn over the picture, for figures",
+         .isSimulated = false},
+        {.name = "still",
+         .subject = "[still]",
+         .help = "the picture, or strip of pictures, that represents the scene",
+         .isSimulated = false},
         {.name = "study",
          .subject = "[study]",
-         .help = "a case of `globular study stability`: what is measured, and the limits that it has to stay within"},
+         .help = "a case of `globular study stability`: what is measured, and the limits that it has to stay within",
+         .isSimulated = false},
     };
     return kTables;
 }
@@ -91,6 +103,7 @@ const std::vector<Key>& schema() {
         const auto add = [&](std::string_view table, std::vector<Key> keys) {
             for (Key& row : keys) {
                 row.table = table;
+                row.isSimulated = row.isSimulated && findTable(table)->isSimulated;
                 all.push_back(std::move(row));
             }
         };

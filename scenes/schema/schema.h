@@ -50,6 +50,7 @@ struct Key {
     std::string_view defaultValue{};    ///< constant default as TOML text; empty for none
     std::string_view derivedDefault{};  ///< a default that depends on other keys, in words; empty for none
     bool isRequired = false;            ///< the key must be given in every table that it applies to
+    bool isSimulated = true;            ///< whether the states of the particles may depend on the key
     std::vector<std::string_view>
         appliesTo{};  ///< those values of the table's discriminator for which the key applies; empty: all
 
@@ -73,6 +74,10 @@ struct Key {
         isRequired = true;
         return std::move(*this);
     }
+    Key notSimulated() && {
+        isSimulated = false;
+        return std::move(*this);
+    }
     Key onlyFor(std::vector<std::string_view> variants) && {
         appliesTo = std::move(variants);
         return std::move(*this);
@@ -87,6 +92,7 @@ struct TableInfo {
     bool allowsSingle = true;          ///< the table may be written once, as [name]
     bool allowsList = false;           ///< the table may be written several times, as [[name]]
     bool inheritsPrevious = false;     ///< a table in a list takes what it leaves out from the one before
+    bool isSimulated = true;           ///< whether the states of the particles may depend on any of its keys
     std::string_view discriminator{};  ///< the key that determines which others apply, e.g. "shape"; empty for none
 };
 

@@ -135,6 +135,33 @@ TEST_CASE("the hash depends on every value and on nothing else") {
     }
 }
 
+TEST_CASE("the hash of the simulation depends on the keys that move particles and on no other") {
+    const std::string text = kBall +
+                             "[[obstacle]]\nshape = \"box\"\nminimum = [-1, -3, -1]\nmaximum = [1, -2, 1]\n"
+                             "[[camera]]\ntime = 0\n[[camera]]\ntime = 1\n[study]\nnumber = 1\nobservable = "
+                             "\"momentum-drift\"\nlimit = 1\n";
+    const std::string hash = sceneOf(text).simulationHash;
+    CHECK(hash.size() == 16);
+    CHECK(hash != sceneOf(text).sceneHash);
+    for (const char* change :
+         {"title=u", "description=d", "duration=2.5", "material.color=#ffffff", "obstacle[0].visible=false",
+          "obstacle[0].edges=true", "obstacle[0].color=#ffffff", "camera[1].eye=[0,2,11]", "camera[1].time=3",
+          "look.size=[64,64]", "look.style=metaballs", "look.color_by=age", "look.edge_color=#ffffff",
+          "overlay.time=true", "still.time=0.5", "study.limit=2"}) {
+        INFO(change);
+        CHECK(sceneOf(text, {change}).simulationHash == hash);
+        CHECK(sceneOf(text, {change}).sceneHash != sceneOf(text).sceneHash);
+    }
+    std::set<std::string> hashes = {hash};
+    for (const char* change :
+         {"fps=31", "seed=2", "resolution=1.5", "physics.step=0.003", "physics.error=0.02", "physics.wall=paper",
+          "world.minimum=[-9,-9,-9]", "material.bd=3", "material.preset=honey", "body[0].radius=0.6",
+          "body[0].velocity=[0,1,0]", "obstacle[0].maximum=[1,-2,1.5]", "obstacle[0].friction=0.5"}) {
+        INFO(change);
+        CHECK(hashes.insert(sceneOf(text, {change}).simulationHash).second);
+    }
+}
+
 TEST_CASE("scenes are read from files, and a file that cannot be read is an input error") {
     const ScratchFolder folder;
     const std::string path = folder.write("s.toml", kBall);

@@ -126,6 +126,7 @@ Json frameRateJson(const render::FrameRate& rate) {
 Json sceneIdentity(const scenes::Scene& scene) {
     return {{"scene", scene.title},
             {"scene_hash", scene.sceneHash},
+            {"simulation_hash", scene.simulationHash},
             {"version", GLOBULAR_VERSION},
             {"seed", scene.setup.seed},
             {"fps", frameRateJson(scene.fps)}};
