@@ -1,5 +1,6 @@
-// Positions, velocities, radii, masses and materials as columns of PLY files. What is not known is skipped and named;
-// what is known must be right, because a particle in the wrong place is harder to notice than a message.
+// Positions, velocities, radii, masses, times of birth and materials as columns of PLY files. What is not known is
+// skipped and named; what is known must be right, because a particle in the wrong place is harder to notice than a
+// message.
 #include "scenes/model/particle_file.h"
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -21,14 +23,16 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "particle files are written little-endian");
 
-constexpr std::array<std::string_view, 8> kRealProperties = {"x", "y", "z", "vx", "vy", "vz", "radius", "mass"};
+constexpr std::array<std::string_view, 9> kRealProperties = {"x",  "y",      "z",    "vx",        "vy",
+                                                             "vz", "radius", "mass", "birth_time"};
 
 /// Names of the radius: ours, and those of Houdini and of programs that read its files.
 constexpr std::array<std::string_view, 3> kRadiusNames = {"radius", "pscale", "psize"};
 
-/// Properties that are read or may be left out silently: "id", because particles get new ids in the order of the rows.
-constexpr std::array<std::string_view, 12> kReadProperties = {"x",      "y",      "z",     "vx",   "vy",       "vz",
-                                                              "radius", "pscale", "psize", "mass", "material", "id"};
+/// Properties that are read or may be left out silently: a body takes neither "birth_time", because its particles are
+/// born when the run starts, nor "id", because they get new ids in the order of the rows.
+constexpr std::array<std::string_view, 13> kReadProperties = {
+    "x", "y", "z", "vx", "vy", "vz", "radius", "pscale", "psize", "mass", "birth_time", "material", "id"};
 
 template <class Value>
 void put(std::string& bytes, const Value& value) {
@@ -45,6 +49,8 @@ constexpr Rule kCoordinate{-engine::kWorldLimit, engine::kWorldLimit};
 constexpr Rule kRadius{engine::kLeastRadius, engine::kLargestRadius};
 constexpr Rule kMass{engine::kLeastMass, engine::kLargestMass};
 constexpr Rule kMaterial{0.0, std::numeric_limits<std::uint32_t>::max(), true};
+constexpr Rule kId = kMaterial;
+constexpr Rule kTime{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max()};
 
 /// A property of the file, if it has one of that name. All its numbers keep the rule.
 /// @throws InputError that names the first that does not
@@ -72,26 +78,34 @@ std::array<const PlyColumn*, 3> vectorColumns(const PlyVertices& vertices, std::
     return columns;
 }
 
-}  // namespace
-
-std::string encodeParticles(const engine::Particles& particles) {
-    std::string bytes = fmt::format(
-        "ply\nformat binary_little_endian 1.0\ncomment globular particles\nelement vertex {}\n", particles.count());
-    for (const std::string_view name : kRealProperties) bytes += fmt::format("property double {}\n", name);
-    bytes += "property uint material\nproperty uint id\nend_header\n";
-    for (std::size_t index = 0; index < particles.count(); ++index) {
-        put(bytes, particles.position[index]);
-        put(bytes, particles.velocity[index]);
-        put(bytes, particles.radius[index]);
-        put(bytes, particles.mass[index]);
-        put(bytes, particles.material[index]);
-        put(bytes, particles.id[index]);
-    }
-    return bytes;
+std::string commentsOf(const std::optional<StateStamp>& stamp) {
+    if (!stamp) return {};
+    return fmt::format("comment frame {}\ncomment time {}\ncomment simulation_hash {}\n", stamp->frame, stamp->time,
+                       stamp->simulationHash);
 }
 
-ParticleFile decodeParticles(std::string_view bytes, const std::string& fileName) {
-    PlyVertices vertices = readPlyVertices(bytes, fileName, kReadProperties);
+/// The words after the first one in the comment that begins with that one.
+/// @throws InputError if there is no such comment
+std::string commentNamed(const PlyVertices& vertices, const std::string& name, const std::string& fileName) {
+    for (const std::string& comment : vertices.comments)
+        if (comment.starts_with(name + ' ')) return comment.substr(name.size() + 1);
+    throw InputError(fileName,
+                     fmt::format("the header has no \"comment {} ...\": it is no state that this version of `globular "
+                                 "simulate` has written",
+                                 name));
+}
+
+template <class Number>
+Number numberNamed(const PlyVertices& vertices, const std::string& name, const std::string& fileName) {
+    const std::string text = commentNamed(vertices, name, fileName);
+    Number number{};
+    const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || !(number >= 0))
+        throw InputError(fileName, fmt::format("the comment {} is \"{}\", must be a number >= 0", name, text));
+    return number;
+}
+
+ParticleFile particlesOf(PlyVertices vertices, const std::string& fileName) {
     const auto position = vectorColumns(vertices, "", fileName);
     for (std::size_t axis = 0; axis < 3; ++axis)
         if (position[axis] == nullptr)
@@ -126,6 +140,48 @@ ParticleFile decodeParticles(std::string_view bytes, const std::string& fileName
         append(file.particles, particle);
     }
     return file;
+}
+
+}  // namespace
+
+std::string encodeParticles(const engine::Particles& particles, const std::optional<StateStamp>& stamp) {
+    std::string bytes =
+        fmt::format("ply\nformat binary_little_endian 1.0\ncomment globular particles\n{}element vertex {}\n",
+                    commentsOf(stamp), particles.count());
+    for (const std::string_view name : kRealProperties) bytes += fmt::format("property double {}\n", name);
+    bytes += "property uint material\nproperty uint id\nend_header\n";
+    for (std::size_t index = 0; index < particles.count(); ++index) {
+        put(bytes, particles.position[index]);
+        put(bytes, particles.velocity[index]);
+        put(bytes, particles.radius[index]);
+        put(bytes, particles.mass[index]);
+        put(bytes, particles.birthTime[index]);
+        put(bytes, particles.material[index]);
+        put(bytes, particles.id[index]);
+    }
+    return bytes;
+}
+
+ParticleFile decodeParticles(std::string_view bytes, const std::string& fileName) {
+    return particlesOf(readPlyVertices(bytes, fileName, kReadProperties), fileName);
+}
+
+ParticleState decodeState(std::string_view bytes, const std::string& fileName) {
+    PlyVertices vertices = readPlyVertices(bytes, fileName, kReadProperties);
+    ParticleState state;
+    state.stamp = {numberNamed<int>(vertices, "frame", fileName), numberNamed<double>(vertices, "time", fileName),
+                   commentNamed(vertices, "simulation_hash", fileName)};
+    for (const char* name : {"vx", "radius", "mass", "birth_time", "material", "id"})
+        if (vertices.column(name) == nullptr)
+            throw InputError(fileName, fmt::format("property \"{}\" is missing", name));
+    const std::vector<double> birthTimes = checkedColumn(vertices, "birth_time", kTime, fileName)->values;
+    const std::vector<double> ids = checkedColumn(vertices, "id", kId, fileName)->values;
+    state.particles = particlesOf(std::move(vertices), fileName).particles;
+    state.particles.birthTime = birthTimes;
+    for (std::size_t index = 0; index < ids.size(); ++index)
+        state.particles.id[index] = static_cast<std::uint32_t>(ids[index]);
+    if (!ids.empty()) state.particles.nextId = state.particles.id.back() + 1;
+    return state;
 }
 
 }  // namespace scenes

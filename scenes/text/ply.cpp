@@ -13,6 +13,7 @@
 #include <iterator>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "scenes/text/input_error.h"
 
@@ -63,6 +64,7 @@ struct Element {
 struct Header {
     std::optional<Encoding> encoding;
     std::vector<Element> elements;
+    std::vector<std::string> comments;
 };
 
 /// A PLY file while it is read.
@@ -134,7 +136,9 @@ void readStatement(const Reader& reader, const std::vector<std::string>& words, 
     } else if (first == "property") {
         if (header.elements.empty()) failInHeader(reader, "property before its element");
         header.elements.back().properties.push_back(propertyOf(reader, words));
-    } else if (first != "comment" && first != "obj_info") {
+    } else if (first == "comment") {
+        header.comments.push_back(fmt::format("{}", fmt::join(words.begin() + 1, words.end(), " ")));
+    } else if (first != "obj_info") {
         failInHeader(reader, fmt::format("unknown header line \"{}\"", first.substr(0, 40)));
     }
 }
@@ -249,12 +253,13 @@ const PlyColumn* PlyVertices::column(std::string_view name) const {
 PlyVertices readPlyVertices(std::string_view bytes, const std::string& fileName,
                             std::span<const std::string_view> wanted) {
     Reader reader{bytes, fileName};
-    const Header header = readHeader(reader);
+    Header header = readHeader(reader);
     reader.encoding = *header.encoding;
     const auto isVertex = [](const Element& element) { return element.name == "vertex"; };
     if (std::ranges::count_if(header.elements, isVertex) != 1)
         throw InputError(fileName, "the header must have one element \"vertex\"");
     PlyVertices vertices;
+    vertices.comments = std::move(header.comments);
     bool isRead = false;
     for (const Element& element : header.elements) {
         if (isVertex(element)) {

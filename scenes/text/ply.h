@@ -19,8 +19,9 @@ struct PlyColumn {
 
 struct PlyVertices {
     std::size_t count = 0;
-    std::vector<PlyColumn> columns;    ///< the wanted properties that the file has, in its order
-    std::vector<std::string> skipped;  ///< what else it has, for messages: "red", "element face", "3 bytes at the end"
+    std::vector<PlyColumn> columns;     ///< the wanted properties that the file has, in its order
+    std::vector<std::string> comments;  ///< the comments of the header, without the word "comment"
+    std::vector<std::string> skipped;   ///< what else it has, for messages: "red", "element face", "3 bytes at the end"
 
     /// The column of that name; nullptr if the file does not have it.
     const PlyColumn* column(std::string_view name) const;

@@ -7,8 +7,10 @@
 #include "scenes/text/input_error.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string_view bytes(reinterpret_cast<const char*>(data), size);
     try {
-        scenes::decodeParticles({reinterpret_cast<const char*>(data), size}, "fuzzed.ply");
+        scenes::decodeParticles(bytes, "fuzzed.ply");
+        scenes::decodeState(bytes, "fuzzed.ply");
     } catch (const scenes::InputError&) {
     }
     return 0;

@@ -21,11 +21,16 @@ engine::Particles sample() {
                        .radius = 0.15,
                        .mass = 1.0,
                        .material = 0});
-    append(
-        particles,
-        {.position = Vec3(4, 5, 6), .velocity = Vec3(7, 8, 9), .radius = 0.2, .mass = 0.03, .material = 4000000000U});
+    append(particles, {.position = Vec3(4, 5, 6),
+                       .velocity = Vec3(7, 8, 9),
+                       .radius = 0.2,
+                       .mass = 0.03,
+                       .birthTime = 0.1,
+                       .material = 4000000000U});
     return particles;
 }
+
+const scenes::StateStamp kStamp = {45, 1.0 / 3.0, "0123456789abcdef"};
 
 std::string header(const std::string& properties, int count = 1) {
     std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex ";
@@ -74,6 +79,46 @@ TEST_CASE("a particle file preserves every bit") {
     CHECK(file.particles.mass == before.mass);
     CHECK(file.particles.material == before.material);
     CHECK(file.particles.id == before.id);
+    CHECK(file.skipped.empty());
+    CHECK(file.particles.birthTime == std::vector<double>{0.0, 0.0});  // a body is born when the run starts
+}
+
+TEST_CASE("a state says which moment of which scene it is, and has ids and times of birth") {
+    engine::Particles before = sample();
+    engine::keepWhere(before, [](std::size_t index) { return index == 1; });
+    const scenes::ParticleState state = scenes::decodeState(scenes::encodeParticles(before, kStamp), "a.ply");
+    CHECK(state.stamp == kStamp);
+    CHECK(state.particles.position == before.position);
+    CHECK(state.particles.birthTime == std::vector<double>{0.1});
+    CHECK(state.particles.id == std::vector<std::uint32_t>{1});
+    CHECK(state.particles.nextId == 2);
+    CHECK(scenes::decodeState(scenes::encodeParticles({}, kStamp), "a.ply").particles.count() == 0);
+}
+
+TEST_CASE("what is no state of a run is rejected as one") {
+    const auto problem = [](const std::string& bytes) {
+        try {
+            scenes::decodeState(bytes, "a.ply");
+        } catch (const scenes::InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string("no error");
+    };
+    const auto without = [](const std::string& text) {
+        std::string bytes = scenes::encodeParticles({}, kStamp);
+        return bytes.erase(bytes.find(text), text.size());
+    };
+    const std::string by = ": it is no state that this version of `globular simulate` has written";
+    CHECK(problem(scenes::encodeParticles(sample())) == "a.ply: the header has no \"comment frame ...\"" + by);
+    CHECK(problem(without("comment time 0.3333333333333333\n")) ==
+          "a.ply: the header has no \"comment time ...\"" + by);
+    CHECK(problem(without("property double birth_time\n")) == "a.ply: property \"birth_time\" is missing");
+    CHECK(problem(without("property uint id\n")) == "a.ply: property \"id\" is missing");
+    std::string bytes = scenes::encodeParticles({}, kStamp);
+    bytes.replace(bytes.find("frame 45"), 8, "frame -1");
+    CHECK(problem(bytes) == "a.ply: the comment frame is \"-1\", must be a number >= 0");
+    const std::string whole = scenes::encodeParticles(sample(), kStamp);
+    for (std::size_t length = 0; length < whole.size(); ++length) CHECK(problem(whole.substr(0, length)) != "no error");
 }
 
 TEST_CASE("the format is as documented") {
@@ -82,12 +127,28 @@ TEST_CASE("the format is as documented") {
         "ply\nformat binary_little_endian 1.0\ncomment globular particles\nelement vertex 2\n"
         "property double x\nproperty double y\nproperty double z\nproperty double vx\nproperty double vy\nproperty "
         "double vz\n"
-        "property double radius\nproperty double mass\nproperty uint material\nproperty uint id\nend_header\n";
+        "property double radius\nproperty double mass\nproperty double birth_time\nproperty uint material\nproperty "
+        "uint id\nend_header\n";
     CHECK(bytes.substr(0, expected.size()) == expected);
-    // Each row has 8 doubles and 2 unsigned integers.
-    CHECK(bytes.size() == expected.size() + 2 * (8 * 8 + 2 * 4));
+    // Each row has 9 doubles and 2 unsigned integers.
+    CHECK(bytes.size() == expected.size() + 2 * (9 * 8 + 2 * 4));
     CHECK(bytes.substr(expected.size(), 8) == bytesOf(0.1));
     CHECK(bytes.substr(bytes.size() - 4) == bytesOf(std::uint32_t{1}));
+    CHECK(scenes::encodeParticles(sample(), kStamp)
+              .starts_with("ply\nformat binary_little_endian 1.0\ncomment globular particles\ncomment frame 45\n"
+                           "comment time 0.3333333333333333\ncomment simulation_hash 0123456789abcdef\n"
+                           "element vertex 2\n"));
+}
+
+TEST_CASE("files of earlier versions, without times of birth, are still read") {
+    const std::string bytes =
+        header(kDoubles +
+               "property double vx\nproperty double vy\nproperty double vz\nproperty double radius\n"
+               "property double mass\nproperty uint material\nproperty uint id\n") +
+        kOrigin + kOrigin + bytesOf(0.15) + bytesOf(1.0) + bytesOf(std::uint32_t{3}) + bytesOf(std::uint32_t{7});
+    const scenes::ParticleFile file = scenes::decodeParticles(bytes, "a.ply");
+    CHECK(file.particles.material == std::vector<std::uint32_t>{3});
+    CHECK(file.skipped.empty());
 }
 
 TEST_CASE("a file without particles is valid") {

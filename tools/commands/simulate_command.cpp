@@ -39,7 +39,9 @@ FinishedRun simulateFrames(const scenes::Scene& scene, const FrameList& frames, 
         while (const auto frame = sequence.next()) {
             std::string ply;
             const Stopwatch watch(report.seconds.encoding);
-            if (frame->isWanted && !frame->isKept) ply = scenes::encodeParticles(sequence.simulation().particles);
+            if (frame->isWanted && !frame->isKept)
+                ply = scenes::encodeParticles(sequence.simulation().particles,
+                                              scenes::StateStamp{frame->number, frame->time, scene.simulationHash});
             sequence.store(*frame, {reinterpret_cast<const std::uint8_t*>(ply.data()), ply.size()});
             if (!frame->isWanted) continue;
             ++report.frames;
