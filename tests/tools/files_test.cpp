@@ -210,13 +210,42 @@ TEST_CASE("Frames are named one by one, as ranges with steps and open ends, and 
     CHECK(numbers("2-9:2147483647") == Numbers{2});
     CHECK(numbers("8,1-3,2,0-6:3") == Numbers{0, 1, 2, 3, 6, 8});
     for (const char* wrong : {"7-2", "0-10", "10-", "0,10", "a", "-1", "1-2-3", "3:2", "0-5:0", "0-5:", "0-5:-1", ",",
-                              "1,", "1,,2", "0:5", "0:5-7", "1 ,2", "5-99999999999"})
+                              "1,", "1,,2", "0:5", "0:5-7", "1 2", "5-99999999999"})
         CHECK_THROWS_AS(tools::frameList(wrong, 10), scenes::InputError);
+    CHECK(tools::frameList("1-30,47,60-90:2", 100).count() == 30 + 1 + 16);
+    CHECK(numbers("1-3, 5,7-9:2") == Numbers{1, 2, 3, 5, 7, 9});
+    CHECK(numbers(" 1 , 3 - 7 : 2 ") == Numbers{1, 3, 5, 7});
+    CHECK(numbers("2-5,3,4-6,5") == Numbers{2, 3, 4, 5, 6});
     CHECK_THROWS_WITH(tools::frameList("0:100:10", 10),
-                      "--frames 0:100:10: must be frames A, ranges A-B or A- and every S-th frame of a range A-B:S, "
-                      "separated by commas, e.g. 0-119:10 or 3,7,60-");
+                      "--frames 0:100:10: \"0:100:10\" is no frame and no range; write frames A, ranges A-B or A- and "
+                      "every S-th frame of a range A-B:S, separated by commas, e.g. 0-119:10 or 3,7,60-");
+    CHECK_THROWS_WITH(tools::frameList("3,1..8", 10),
+                      "--frames 3,1..8: \"1..8\" is no frame and no range; did you mean 1-8?");
+    CHECK_THROWS_WITH(tools::frameList("-1", 10),
+                      "--frames -1: \"-1\" is no frame and no range; frames are counted from 0");
+    CHECK_THROWS_WITH(tools::frameList("1 2", 10),
+                      "--frames 1 2: \"1 2\" is no frame and no range; frames are separated by commas");
+    CHECK_THROWS_WITH(tools::frameList("1,", 10), "--frames 1,: there is nothing between two commas or at an end");
+    CHECK_THROWS_WITH(tools::frameList("0-5:0", 10), "--frames 0-5:0: the step of 0-5:0 is 0, must be at least 1");
     const tools::FrameList list = tools::frameList("2,5-7", 10);
     CHECK(list.indexOf(6) == 2);
     CHECK_FALSE(list.indexOf(4));
     CHECK_FALSE(list.indexOf(9));
+}
+
+TEST_CASE("A list of frames is written as --frames takes it", "[tools]") {
+    using Numbers = std::vector<int>;
+    CHECK(tools::listText({}).empty());
+    CHECK(tools::listText({0}) == "0");
+    CHECK(tools::listText({3, 4}) == "3-4");
+    CHECK(tools::listText({3, 5}) == "3,5");
+    CHECK(tools::listText({1, 5, 9, 13}) == "1-13:4");
+    CHECK(tools::listText({1, 2, 3, 47, 60, 62, 64}) == "1-3,47,60-64:2");
+    // Every set of the numbers 0 to 9 is read as it was written.
+    for (unsigned set = 1; set < 1024; ++set) {
+        Numbers frames;
+        for (int frame = 0; frame < 10; ++frame)
+            if ((set >> frame) & 1U) frames.push_back(frame);
+        if (tools::frameList(tools::listText(frames), 10).numbers != frames) FAIL(tools::listText(frames));
+    }
 }
