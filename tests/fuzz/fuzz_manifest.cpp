@@ -5,7 +5,7 @@
 #include <string>
 
 #include "render/picture/system_error.h"
-#include "tools/run/manifest.h"
+#include "tools/frames/manifest.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try {

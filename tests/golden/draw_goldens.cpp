@@ -13,7 +13,7 @@
 #include "scenes/build/read_scene.h"
 #include "scenes/view/frame_view.h"
 #include "tools/compare/picture_provenance.h"
-#include "tools/run/manifest.h"
+#include "tools/frames/manifest.h"
 #include "tools/run/open_renderer.h"
 #include "tools/system/output_file.h"
 #include "tools/system/processors.h"

@@ -56,7 +56,7 @@ const std::map<std::string, std::vector<std::string>> kRooms = {
     {"studies",
      {"studies/accuracy", "studies/stability", "studies/scaling", "studies/bench", "studies/pictures", "studies/oracle",
       "studies/common"}},
-    {"tools", {"tools", "tools/commands", "tools/pages", "tools/compare", "tools/run", "tools/system"}}};
+    {"tools", {"tools", "tools/commands", "tools/pages", "tools/compare", "tools/run", "tools/frames", "tools/system"}}};
 
 /// The layout shows the architecture only as long as a room fits on a screen.
 constexpr std::size_t kMostFilesInRoom = 25;

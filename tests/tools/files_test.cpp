@@ -11,8 +11,8 @@
 #include "scenes/text/input_error.h"
 #include "tests/catch.h"
 #include "tests/tools/program.h"
+#include "tools/frames/frame_list.h"
 #include "tools/pages/html.h"
-#include "tools/run/frame_list.h"
 #include "tools/system/output_file.h"
 #include "tools/system/text.h"
 

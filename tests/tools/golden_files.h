@@ -8,7 +8,7 @@
 #include "render/output/png.h"
 #include "tests/render/test_pictures.h"
 #include "tools/compare/picture_provenance.h"
-#include "tools/run/manifest.h"
+#include "tools/frames/manifest.h"
 #include "tools/system/output_file.h"
 
 namespace golden_files {

@@ -10,7 +10,7 @@
 #include "scenes/text/input_error.h"
 #include "tools/compare/picture_provenance.h"
 #include "tools/compare/picture_set.h"
-#include "tools/run/manifest.h"
+#include "tools/frames/manifest.h"
 #include "tools/system/command_files.h"
 #include "tools/system/json.h"
 #include "tools/system/output_file.h"

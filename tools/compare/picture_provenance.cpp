@@ -7,7 +7,7 @@
 
 #include "render/output/atomic_file.h"
 #include "render/picture/system_error.h"
-#include "tools/run/manifest.h"
+#include "tools/frames/manifest.h"
 #include "tools/run/options.h"
 #include "tools/system/json.h"
 #include "tools/system/output_file.h"

@@ -1,15 +1,10 @@
 // A file is complete before the manifest lists it, so that a run can be resumed after ending at any moment.
 #include "tools/run/frame_folder.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <iterator>
 
@@ -20,7 +15,6 @@
 #include "tools/system/json.h"
 #include "tools/system/output_file.h"
 #include "tools/system/process.h"
-#include "tools/system/text.h"
 
 namespace tools {
 namespace {
@@ -34,8 +28,6 @@ constexpr std::ptrdiff_t kCheckpointCount = 2;
 /// Time between two writes of the manifest. Chosen: a killed run loses at most the frames of this time, because frames
 /// that the manifest does not list are made again.
 constexpr std::chrono::seconds kManifestInterval{1};
-
-constexpr FrameNames kCheckpointNames = {"checkpoint-", ".state"};
 
 void removeFile(const fs::path& path) {
     std::error_code error;
@@ -61,48 +53,6 @@ bool isRunReport(const fs::path& file) {
 }
 
 }  // namespace
-
-bool isRunFile(const fs::path& file) {
-    return kPictureNames.frameOf(file) || kStateNames.frameOf(file) || kCheckpointNames.frameOf(file) ||
-           file.filename() == "manifest.json" || file.filename() == "run.json";
-}
-
-std::string FrameNames::fileName(int frame) const {
-    return fmt::format("{}{:05}{}", prefix, frame, extension);
-}
-
-std::optional<int> FrameNames::frameOf(const fs::path& file) const {
-    const std::string name = file.filename().string();
-    if (!name.starts_with(prefix) || !name.ends_with(extension)) return std::nullopt;
-    const std::string_view digits = std::string_view(name).substr(prefix.size());
-    const auto frame = parseNumber(digits.substr(0, digits.size() - std::min(digits.size(), extension.size())));
-    if (!frame || *frame < 0 || name != fileName(*frame)) return std::nullopt;
-    return frame;
-}
-
-std::vector<fs::path> filesIn(const fs::path& folder) {
-    std::error_code error;
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(folder, error)) files.push_back(entry.path());
-    if (error) throw render::SystemError(fmt::format("cannot read folder {}: {}", folder.string(), error.message()));
-    return files;
-}
-
-FolderLock::FolderLock(const fs::path& folder) {
-    createFolder(folder);
-    descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor_ < 0)
-        throw render::SystemError(fmt::format("cannot open folder {}: {}", folder.string(), std::strerror(errno)));
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
-    const int error = errno;
-    ::close(descriptor_);
-    if (error == EWOULDBLOCK) throw render::SystemError(fmt::format("another run is writing into {}", folder.string()));
-    throw render::SystemError(fmt::format("cannot lock folder {}: {}", folder.string(), std::strerror(error)));
-}
-
-FolderLock::~FolderLock() {
-    ::close(descriptor_);
-}
 
 FrameFolder::FrameFolder(const FolderOptions& options, FrameNames names, const FrameList& frames, const Json& identity)
     : folder_(options.path),

@@ -7,49 +7,16 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "engine/run/advance.h"
-#include "tools/run/frame_list.h"
-#include "tools/run/manifest.h"
+#include "tools/frames/folder_lock.h"
+#include "tools/frames/frame_list.h"
+#include "tools/frames/frame_names.h"
+#include "tools/frames/manifest.h"
 #include "tools/run/options.h"
 #include "tools/system/json.h"
 
 namespace tools {
-
-/// How the numbered files of a run are named: a prefix, the frame number with at least five digits, an extension.
-struct FrameNames {
-    std::string_view prefix;
-    std::string_view extension;
-
-    /// The name of a frame's file, such as "frame-00042.png".
-    std::string fileName(int frame) const;
-    /// The frame whose file has this name, in any folder; nothing if the file is not one of the series.
-    std::optional<int> frameOf(const std::filesystem::path& file) const;
-};
-inline constexpr FrameNames kPictureNames = {"frame-", ".png"};
-inline constexpr FrameNames kStateNames = {"particles-", ".ply"};
-
-/// Whether a run may write a file of this name into its folder: a frame, a checkpoint, manifest.json or run.json.
-bool isRunFile(const std::filesystem::path& file);
-
-/// The files in a folder, in no order.
-/// @throws render::SystemError
-std::vector<std::filesystem::path> filesIn(const std::filesystem::path& folder);
-
-/// A folder, created if needed, that no other run can write into while the object exists. The lock is the operating
-/// system's, so that it ends with the process, however that ends.
-class FolderLock {
- public:
-    /// @throws render::SystemError if another run holds the lock
-    explicit FolderLock(const std::filesystem::path& folder);
-    ~FolderLock();
-    FolderLock(const FolderLock&) = delete;
-    FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-    int descriptor_ = -1;
-};
 
 /// A state to resume from, as read from a checkpoint.
 struct RestartPoint {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "scenes/model/scene.h"
+#include "tools/frames/frame_list.h"
 #include "tools/run/frame_folder.h"
-#include "tools/run/frame_list.h"
 #include "tools/run/options.h"
 #include "tools/run/run_report.h"
 #include "tools/system/interrupts.h"

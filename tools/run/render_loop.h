@@ -7,7 +7,7 @@
 
 #include "render/picture/view.h"
 #include "scenes/model/scene.h"
-#include "tools/run/frame_list.h"
+#include "tools/frames/frame_list.h"
 #include "tools/run/options.h"
 #include "tools/run/run_report.h"
 #include "tools/system/progress.h"

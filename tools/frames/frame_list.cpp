@@ -1,5 +1,5 @@
 // Reads the text of --frames, and writes it.
-#include "tools/run/frame_list.h"
+#include "tools/frames/frame_list.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // The manifest as JSON. Everything that is read is checked, because the file may be damaged or foreign.
-#include "tools/run/manifest.h"
+#include "tools/frames/manifest.h"
 
 #include <fmt/format.h>
 
