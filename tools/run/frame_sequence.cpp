@@ -3,7 +3,6 @@
 #include "tools/run/frame_sequence.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <utility>
@@ -23,16 +22,6 @@ namespace {
 /// The error of a fixed step is estimated at no more than this many frames of a run. Chosen: in a run of 240 frames
 /// each estimate may then cover a whole frame.
 constexpr int kErrorSampleCount = 8;
-
-/// What the first Ctrl-C is answered with. On a terminal it replaces the line of progress, which is drawn again below.
-constexpr const char* kNotice = "ending within two seconds; press again to stop now\n";
-constexpr const char* kNoticeOnTerminal = "\r\x1b[Kending within two seconds; press again to stop now\n";
-
-/// What is said where the run ends where it stands.
-constexpr const char* kLastWords =
-    "error: interrupted; the frames that are whole are kept; to go on, give the same command with --resume (and "
-    "without "
-    "--overwrite)\n";
 
 /// Whether the error is estimated at a frame: at the end of each of as many equal parts of the run.
 bool isSampled(const FrameList& frames, int frame) {
@@ -56,16 +45,11 @@ std::vector<std::uint8_t> checkpointOf(const engine::Simulation& simulation) {
 
 FrameSequence::FrameSequence(const scenes::Scene& scene, FrameList frames, const SequenceOptions& options,
                              Progress& progress)
-    : scene_(scene),
+    : FrameSource(options.folder, progress),
+      scene_(scene),
       frames_(std::move(frames)),
-      folder_(options.folder),
       estimatesErrors_(options.estimatesErrors),
-      progress_(progress),
       lastCheckpoint_(std::chrono::steady_clock::now()) {
-    const char* const notice = progress_.verbosity() == Verbosity::quiet ? nullptr
-                               : isatty(STDERR_FILENO) == 1              ? kNoticeOnTerminal
-                                                                         : kNotice;
-    if (folder_ != nullptr) interrupts_.emplace(InterruptOptions{true, notice, kLastWords});
     withMemoryForParticles(scene_.setup.initial.count(), [this] {
         if (folder_ == nullptr || !resume()) run_.simulation = engine::start(scene_.setup);
     });
@@ -155,29 +139,14 @@ Json FrameSequence::checkpointReport() const {
     return report;
 }
 
-void FrameSequence::store(const SequencedFrame& frame, std::span<const std::uint8_t> bytes) {
-    if (frame.isWanted && !frame.isKept) folder_->write(frame.number, bytes, frame.stateHash);
-    if (!frame.checkpoint.empty()) folder_->writeCheckpoint(frame.number, frame.checkpoint, frame.report);
-}
-
 void FrameSequence::finish() {
     RunReport& report = run_.report;
-    // This is the only place that decides whether the run was complete, because the signal may come at any moment.
-    if (mustStop()) {
-        report.interruptedBy = interrupts_->signal();
-        report.isCutShort = true;
-        report.stateHash.clear();
-    }
     // A simulation that became unstable or was stopped has no state of a frame, and a checkpoint needs all frames
     // before it to be written.
-    if (!report.unstable.empty() || report.isCutShort) return;
+    if (recordStop() || !report.unstable.empty()) return;
     if (folder_ != nullptr && position_ >= 0)
         folder_->writeCheckpoint(position_, checkpointOf(run_.simulation), checkpointReport());
     report.stateHash = engine::stateHash(run_.simulation.particles);
-}
-
-void FrameSequence::recordInterrupt() {
-    if (interrupts_) run_.report.interruptedBy = interrupts_->signal();
 }
 
 FinishedRun FrameSequence::take() {
