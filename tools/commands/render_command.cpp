@@ -1,13 +1,17 @@
-// globular render: simulates and draws a scene, and writes PNG frames, run.json and a video.
+// globular render: simulates and draws a scene, or draws it from states that were simulated before, and writes PNG
+// frames, run.json and a video.
 #include <fmt/format.h>
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "engine/state/simulation.h"
 #include "render/output/video.h"
 #include "scenes/text/input_error.h"
 #include "tools/commands/commands.h"
+#include "tools/frames/frame_names.h"
+#include "tools/frames/state_folder.h"
 #include "tools/run/frame_folder.h"
 #include "tools/run/render_loop.h"
 #include "tools/run/run_warnings.h"
@@ -27,6 +31,7 @@ struct RenderOptions {
     FolderOptions folder;
     std::string video;
     std::string frames;
+    std::string states;  ///< folder of states to draw; empty: the scene is simulated
     bool estimatesErrors = true;
 };
 
@@ -34,7 +39,20 @@ bool pipesFrames(const RenderOptions& options) {
     return options.folder.path == kStandardStream;
 }
 
+/// The last lines of a run that was drawn from states.
+std::string drawnSummaryOf(const RenderOptions& options, const RunReport& report) {
+    const StageSeconds& seconds = report.seconds;
+    return fmt::format(
+        "{} frames {}{}\nfrom states in {}: up to {} particles, {:.1f} s (reading {:.1f}, drawing {:.1f}, encoding "
+        "{:.1f}), "
+        "state {}\n",
+        report.frames, pipesFrames(options) ? "to standard output" : "in " + options.folder.path,
+        options.video.empty() ? "" : ", video " + options.video, options.states, report.largestCount, seconds.all,
+        seconds.reading, seconds.drawing, seconds.encoding, report.stateHash);
+}
+
 std::string summaryOf(const RenderOptions& options, const scenes::Scene& scene, const FinishedRun& run) {
+    if (!options.states.empty()) return drawnSummaryOf(options, run.report);
     const StageSeconds& seconds = run.report.seconds;
     return fmt::format(
         "{} frames {}{}\n{} particles, {} steps, {:.1f} s (simulating {:.1f}, drawing {:.1f}, encoding {:.1f}), "
@@ -46,8 +64,12 @@ std::string summaryOf(const RenderOptions& options, const scenes::Scene& scene, 
 }
 
 /// Checks the outputs before anything is done.
-void checkOutputs(const RenderOptions& options, const scenes::Scene& scene) {
+/// @param states  that are drawn; nullptr: none
+void checkOutputs(const RenderOptions& options, const scenes::Scene& scene, const StateFolder* states) {
     CommandFiles files{scene.files, {}, {}};
+    if (states != nullptr)
+        for (const fs::path& file : filesIn(states->path()))
+            if (isRunFile(file)) files.inputs.push_back(file);
     if (!options.video.empty()) {
         requireVideoName("--video", options.video);
         files.outputs.push_back({"--video", options.video});
@@ -73,9 +95,16 @@ void render(RenderOptions options) {
                   pipesFrames(options),
                   options.estimatesErrors};
     if (job.pipesFrames) job.folder.reset();
-    checkOutputs(options, scene);
+    std::optional<StateFolder> states;
+    if (!options.states.empty()) states.emplace(options.states, scene, sceneIdentity(scene), job.frames);
+    if (states) job.states = &*states;
+    checkOutputs(options, scene, job.states);
 
-    warnOfStart(options.scene, scene, job.threads);
+    // How the simulation starts is none of the concerns of a run that does not simulate.
+    if (!states)
+        warnOfStart(options.scene, scene, job.threads);
+    else if (options.scene.isStrict)
+        refuse(scene.warnings);
     if (!options.video.empty()) createFolderOf(options.video);
     const FinishedRun run = renderFrames(job);
     requireComplete(run.report, options.folder.path);
@@ -100,11 +129,18 @@ void addRenderCommand(CLI::App& program) {
                     fmt::format("also write a video; the name must end in {}", render::kVideoExtensions))
         ->type_name("FILE");
     command.add_option("--frames", options->frames, std::string("draw only ") + kFrameListHelp)->type_name("FRAMES");
+    command
+        .add_option(
+            "--states", options->states,
+            "draw the states that `globular simulate` has written of this scene, without simulating; title, "
+            "duration, colors, what is drawn of obstacles, and [camera], [look], [overlay] and [still] may differ")
+        ->type_name("DIR");
     addTo(command, options->draw);
     addErrorFlag(command, options->estimatesErrors);
     addTo(command, options->run);
     command.footer(std::string(kErrorSampleNotes) +
-                   "Example: globular render liquid -o out/liquid --video out/liquid.mp4");
+                   "Example: globular render liquid -o out/liquid --video out/liquid.mp4\n"
+                   "         globular render liquid --states out/liquid-states --size 1920x1080 -o out/large");
     command.callback([options] { render(*options); });
 }
 

@@ -21,6 +21,7 @@
 #include "scenes/view/frame_view.h"
 #include "tools/run/frame_sequence.h"
 #include "tools/run/open_renderer.h"
+#include "tools/run/state_sequence.h"
 #include "tools/run/threads.h"
 #include "tools/system/json.h"
 #include "tools/system/memory.h"
@@ -61,12 +62,12 @@ class RenderRun {
           opened_(openRenderer(job)),
           progress_(job.title, job.frames.count(), job.verbosity),
           folder_(openFolder(job, opened_.record)),
-          frames_(*job.scene, job.frames, {folder_.get(), job.estimatesErrors}, progress_) {
+          frames_(openSource(job, folder_.get(), progress_)) {
         report().threads = job.threads;
         report().renderer = opened_.record;
         if (job.videoPath.empty()) return;
         render::VideoOptions options = videoOptions(job);
-        options.mustStop = [this] { return frames_.mustStop(); };
+        options.mustStop = [this] { return frames_->mustStop(); };
         video_ = std::make_unique<render::VideoWriter>(options);
     }
 
@@ -74,10 +75,10 @@ class RenderRun {
         {
             const Stopwatch watch(report().seconds.all);
             onThreads(job_.threads, [this] { runPipeline(); });
-            frames_.finish();
+            frames_->finish();
             if (video_ && report().frames > 0 && !report().isCutShort) finishVideo();
         }
-        return frames_.take();
+        return frames_->take();
     }
 
  private:
@@ -97,6 +98,13 @@ class RenderRun {
         options.size = job.scene->size;
         options.frameRate = job.scene->fps;
         return options;
+    }
+
+    static std::unique_ptr<FrameSource> openSource(const RenderJob& job, FrameFolder* folder, Progress& progress) {
+        if (job.states != nullptr)
+            return std::make_unique<StateSequence>(*job.scene, job.frames, *job.states, folder, progress);
+        return std::make_unique<FrameSequence>(*job.scene, job.frames, SequenceOptions{folder, job.estimatesErrors},
+                                               progress);
     }
 
     void runPipeline() {
@@ -128,13 +136,13 @@ class RenderRun {
             const std::lock_guard lock(failureMutex_);
             if (!failure_) failure_ = std::current_exception();
             hasFailed_ = true;
-            frames_.abort();
+            frames_->abort();
         }
     }
 
     /// Returns nullptr after the last frame.
     FrameInFlight* simulate() {
-        auto frame = frames_.next();
+        auto frame = frames_->next();
         if (!frame) return nullptr;
         // The stages are in order, so the frame that used this slot before has left the pipeline.
         FrameInFlight& flight = flights_[startedCount_++ % kTokens];
@@ -142,13 +150,13 @@ class RenderRun {
         flight.frame = std::move(*frame);
         flight.image.reset();
         if (flight.frame.isWanted && !flight.frame.isKept)
-            flight.view = scenes::frameView(*job_.scene, frames_.simulation());
+            flight.view = scenes::frameView(*job_.scene, frames_->simulation());
         return &flight;
     }
 
     void draw(FrameInFlight& flight) {
         flight.isDropped = true;  // unless it gets to the end
-        if (frames_.mustStop()) return;
+        if (frames_->mustStop()) return;
         if (flight.view) drawView(flight);
         flight.isDropped = false;
     }
@@ -169,7 +177,7 @@ class RenderRun {
         const SequencedFrame& frame = flight.frame;
         std::vector<std::uint8_t> png;
         if (flight.image && (folder_ || job_.pipesFrames)) png = render::encodePng(*flight.image);
-        if (folder_) frames_.store(frame, png);
+        if (folder_) frames_->store(frame, png);
         if (!frame.isWanted) return;
         if (job_.pipesFrames) writeStandardOutput(png);
         if (video_) unlessStopped([&] { video_->add(flight.image ? *flight.image : readKept(frame.number)); });
@@ -179,7 +187,7 @@ class RenderRun {
 
     void finishVideo() {
         const Progress::Work work(progress_, "completing the video");
-        if (!unlessStopped([&] { video_->finish(); })) frames_.recordInterrupt();
+        if (!unlessStopped([&] { video_->finish(); })) frames_->recordInterrupt();
     }
 
     /// Works on the video. Returns false where that failed because the run must stop; there will be no video then.
@@ -189,7 +197,7 @@ class RenderRun {
             work();
             return true;
         } catch (const render::SystemError&) {
-            if (!frames_.mustStop()) throw;
+            if (!frames_->mustStop()) throw;
             return false;
         }
     }
@@ -200,13 +208,13 @@ class RenderRun {
         return render::decodePng(readFile(path), path.string());
     }
 
-    RunReport& report() { return frames_.report(); }
+    RunReport& report() { return frames_->report(); }
 
     const RenderJob& job_;
     OpenedRenderer opened_;
     Progress progress_;
     std::unique_ptr<FrameFolder> folder_;
-    FrameSequence frames_;
+    std::unique_ptr<FrameSource> frames_;
     std::array<FrameInFlight, kTokens> flights_;
     std::size_t startedCount_ = 0;
     std::unique_ptr<render::VideoWriter> video_;

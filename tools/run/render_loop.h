@@ -1,5 +1,5 @@
-// The render loop: simulates frame k + 1, draws frame k and encodes frame k - 1, at the same time if there are threads
-// for it. Called by `render` and `figures`.
+// The render loop: simulates frame k + 1 or reads its state, draws frame k and encodes frame k - 1, at the same time if
+// there are threads for it. Called by `render` and `figures`.
 #pragma once
 
 #include <optional>
@@ -8,6 +8,7 @@
 #include "render/picture/view.h"
 #include "scenes/model/scene.h"
 #include "tools/frames/frame_list.h"
+#include "tools/frames/state_folder.h"
 #include "tools/run/options.h"
 #include "tools/run/run_report.h"
 #include "tools/system/progress.h"
@@ -20,6 +21,7 @@ struct RenderJob : DrawJob {
     std::string videoPath;                ///< path of the video, with its kind; empty: no video is made
     bool pipesFrames = false;             ///< whether frames go to standard output, one PNG after the other
     bool estimatesErrors = true;          ///< whether the error of a fixed step is estimated at some of the frames
+    const StateFolder* states = nullptr;  ///< where the particles of all frames come from; nullptr: a simulation
 };
 
 /// Draws the frames of a job. If the simulation becomes unstable, the run ends after the frames before that. After a

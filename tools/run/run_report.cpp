@@ -92,6 +92,16 @@ Json energyJson(const engine::Energy& energy) {
             {"total", energy.total()}};
 }
 
+/// The first fields of run.json: the scene, and what the program ran on and drew with.
+Json programJson(const scenes::Scene& scene, const RunReport& report) {
+    Json json = sceneIdentity(scene);
+    json["source"] = scene.sourceName;
+    json["threads"] = report.threads;
+    json["instruction_set"] = engine::simdInstructionSet();
+    addTo(json, report.renderer);
+    return json;
+}
+
 }  // namespace
 
 Json encodeErrors(const engine::ErrorSamples& errors) {
@@ -124,22 +134,14 @@ Json frameRateJson(const render::FrameRate& rate) {
 }
 
 Json sceneIdentity(const scenes::Scene& scene) {
-    return {{"scene", scene.title},
-            {"scene_hash", scene.sceneHash},
-            {"simulation_hash", scene.simulationHash},
-            {"version", GLOBULAR_VERSION},
-            {"seed", scene.setup.seed},
-            {"fps", frameRateJson(scene.fps)}};
+    return {{"scene", scene.title},        {"scene_hash", scene.sceneHash}, {"simulation_hash", scene.simulationHash},
+            {"version", GLOBULAR_VERSION}, {"seed", scene.setup.seed},      {"fps", frameRateJson(scene.fps)}};
 }
 
 Json runJson(const scenes::Scene& scene, FinishedRun& run) {
     engine::Simulation& simulation = run.simulation;
     const RunReport& report = run.report;
-    Json json = sceneIdentity(scene);
-    json["source"] = scene.sourceName;
-    json["threads"] = report.threads;
-    json["instruction_set"] = engine::simdInstructionSet();
-    addTo(json, report.renderer);
+    Json json = programJson(scene, report);
     json["particles"] = engine::largestCount(simulation);
     json["births"] = engine::birthCount(simulation);
     json["refused_births"] = engine::refusalCount(simulation);
@@ -167,6 +169,20 @@ Json runJson(const scenes::Scene& scene, FinishedRun& run) {
     } else if (!report.unstable.empty()) {
         json["unstable"] = report.unstable;
     }
+    json["state_hash"] = report.stateHash;
+    return json;
+}
+
+Json drawnRunJson(const scenes::Scene& scene, const RunReport& report, const StateFolder& states) {
+    Json json = programJson(scene, report);
+    json["drawn_from"] = {{"states", states.path().string()}, {"version", states.version()}};
+    json["particles"] = report.largestCount;
+    json["frames"] = report.frames;
+    json["interrupted"] = report.interruptedBy != 0;
+    json["seconds"] = {{"reading", report.seconds.reading},
+                       {"drawing", report.seconds.drawing},
+                       {"encoding", report.seconds.encoding},
+                       {"all", report.seconds.all}};
     json["state_hash"] = report.stateHash;
     return json;
 }

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <optional>
 #include <string>
 
 #include "engine/error_control/error_samples.h"
 #include "engine/run/advance.h"
 #include "scenes/model/scene.h"
+#include "tools/frames/state_folder.h"
 #include "tools/system/json.h"
 
 namespace tools {
@@ -15,6 +17,7 @@ namespace tools {
 /// Wall-clock seconds of a run by stage. Stages overlap, so that their sum may exceed the total.
 struct StageSeconds {
     double simulating = 0.0;
+    double reading = 0.0;  ///< reading states instead of simulating
     double drawing = 0.0;
     double encoding = 0.0;  ///< encoding and writing PNG, PLY and video
     double all = 0.0;
@@ -53,7 +56,8 @@ void addTo(Json& json, const RendererRecord& renderer);
 struct RunReport {
     StageSeconds seconds;
     engine::ErrorSamples errors;
-    int frames = 0;  ///< number of frames asked for that were written or kept
+    std::size_t largestCount = 0;  ///< largest number of particles in a state that was read; 0 if none was
+    int frames = 0;                ///< number of frames asked for that were written or kept
     int threads = 1;
     RendererRecord renderer;  ///< what drew; empty if nothing was drawn
     std::string stateHash;    ///< hash of the particles at the last frame; empty if there is none
@@ -78,6 +82,9 @@ Json sceneIdentity(const scenes::Scene& scene);
 
 /// The content of run.json.
 Json runJson(const scenes::Scene& scene, FinishedRun& run);
+
+/// The content of run.json of a run that was drawn from states.
+Json drawnRunJson(const scenes::Scene& scene, const RunReport& report, const StateFolder& states);
 
 /// Throws if a run ended early.
 /// @param folder  the folder of the run, for the message

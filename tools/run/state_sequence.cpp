@@ -1,0 +1,51 @@
+// No checkpoints are needed: the states are all there.
+#include "tools/run/state_sequence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "tools/system/memory.h"
+
+namespace tools {
+
+StateSequence::StateSequence(const scenes::Scene& scene, FrameList frames, const StateFolder& states,
+                             FrameFolder* folder, Progress& progress)
+    : FrameSource(folder, progress), scene_(scene), frames_(std::move(frames)), states_(states) {}
+
+std::optional<SequencedFrame> StateSequence::next() {
+    if (next_ == frames_.numbers.size()) return std::nullopt;
+    if (interrupts_) run_.report.interruptedBy = interrupts_->signal();
+    if (run_.report.interruptedBy != 0 || mustStop()) return std::nullopt;
+    SequencedFrame frame;
+    frame.number = frames_.numbers[next_++];
+    frame.time = scenes::frameTime(scene_, frame.number);
+    frame.isKept = folder_ != nullptr && folder_->isKept(frame.number);
+    frame.stateHash = run_.report.stateHash = states_.stateHash(frame.number);
+    if (!frame.isKept)
+        withMemoryFor([&] { return fmt::format("reading {}", states_.pathOf(frame.number).string()); },
+                      "draw on a machine with more memory", [&] { read(frame); });
+    return frame;
+}
+
+/// Puts the state of a frame into the simulation.
+void StateSequence::read(const SequencedFrame& frame) {
+    const Stopwatch watch(run_.report.seconds.reading);
+    const Progress::Work work(progress_, fmt::format("reading the state of frame {}", frame.number));
+    run_.simulation.particles = states_.read(frame.number);
+    run_.simulation.time = frame.time;
+    run_.report.largestCount = std::max(run_.report.largestCount, run_.simulation.particles.count());
+}
+
+void StateSequence::finish() {
+    recordStop();
+}
+
+FinishedRun StateSequence::take() {
+    run_.json = drawnRunJson(scene_, run_.report, states_);
+    if (folder_ != nullptr) folder_->writeReport(run_.json);
+    return std::move(run_);
+}
+
+}  // namespace tools

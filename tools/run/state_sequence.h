@@ -1,0 +1,35 @@
+// The states of an earlier simulation, one after the other: the frames of `render --states`.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "scenes/model/scene.h"
+#include "tools/frames/frame_list.h"
+#include "tools/frames/state_folder.h"
+#include "tools/run/frame_source.h"
+
+namespace tools {
+
+/// Reads the states of the frames of a run.
+class StateSequence : public FrameSource {
+ public:
+    /// @param states, progress  must outlive the sequence
+    StateSequence(const scenes::Scene& scene, FrameList frames, const StateFolder& states, FrameFolder* folder,
+                  Progress& progress);
+
+    /// @throws render::SystemError if a state cannot be read or is damaged
+    std::optional<SequencedFrame> next() override;
+    void finish() override;
+    FinishedRun take() override;
+
+ private:
+    void read(const SequencedFrame& frame);
+
+    const scenes::Scene& scene_;
+    FrameList frames_;
+    const StateFolder& states_;
+    std::size_t next_ = 0;  ///< position in the list of frames
+};
+
+}  // namespace tools
