@@ -4,17 +4,15 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "render/output/png.h"
 #include "render/output/video.h"
 #include "render/picture/system_error.h"
-#include "scenes/text/frame_rate.h"
 #include "scenes/text/input_error.h"
 #include "tools/commands/commands.h"
-#include "tools/run/frame_folder.h"
+#include "tools/frames/frame_names.h"
+#include "tools/frames/frames_video.h"
 #include "tools/system/command_files.h"
 #include "tools/system/json.h"
 #include "tools/system/output_file.h"
@@ -49,25 +47,17 @@ std::vector<int> frameNumbers(const fs::path& folder) {
     return numbers;
 }
 
-/// The frame rate that a text spells, if a scene may have it.
-std::optional<render::FrameRate> rateFrom(const std::string& text) {
-    const auto rate = scenes::frameRateFrom(text);
-    const bool isAllowed = rate && rate->framesIn(1.0) >= 1.0 && rate->framesIn(1.0) <= 240.0;
-    return isAllowed ? rate : std::nullopt;
-}
-
 /// Frame rate of the video: from --fps, or else from run.json, or 30 a second if there is no run.json.
 render::FrameRate rateOf(const EncodeOptions& options) {
     if (!options.fps.empty()) {
-        if (const auto rate = rateFrom(options.fps)) return *rate;
+        if (const auto rate = frameRateIn(options.fps)) return *rate;
         throw scenes::InputError("--fps " + options.fps,
                                  "must be a whole number or a fraction such as 30000/1001, from 1 to 240");
     }
     const fs::path run = fs::path(options.folder) / "run.json";
     if (!fs::exists(run)) return {};
     const Json json = Json::parse(readFile(run), nullptr, false);
-    const Json fps = json.is_object() ? json.value("fps", Json()) : Json();
-    const auto rate = rateFrom(fps.is_string() ? fps.get<std::string>() : compactText(fps));
+    const auto rate = frameRateIn(json.is_object() ? json.value("fps", Json()) : Json());
     if (!rate) throw render::SystemError(fmt::format("{} has no frame rate; give one with --fps", run.string()));
     return *rate;
 }
@@ -81,31 +71,9 @@ void encode(const EncodeOptions& options) {
     for (const fs::path& file : filesIn(folder))
         if (isRunFile(file)) files.inputs.push_back(file);
     requireSeparate(files);
-    createFolderOf(options.output);
-
-    const auto read = [&](int number) {
-        const fs::path path = folder / kPictureNames.fileName(number);
-        return render::decodePng(readFile(path), path.string());
-    };
-    const render::Image first = read(numbers.front());
-    render::VideoOptions video;
-    video.path = options.output;
-    video.size = {first.width, first.height};
-    video.frameRate = rate;
     {
-        render::VideoWriter writer(video);
         Progress progress(folder.string(), static_cast<int>(numbers.size()), options.run.verbosity());
-        for (const int number : numbers) {
-            const render::Image image = read(number);
-            if (image.width != first.width || image.height != first.height)
-                throw render::SystemError(fmt::format("{} is {}x{}, the frames before it are {}x{}",
-                                                      (folder / kPictureNames.fileName(number)).string(), image.width,
-                                                      image.height, first.width, first.height));
-            writer.add(image);
-            progress.frameDone(number, rate.timeOf(number));
-        }
-        const Progress::Work work(progress, "completing the video");
-        writer.finish();
+        makeVideo({folder, numbers, rate, options.output}, progress);
     }
     printResult(options.run, {{"event", "done"}, {"video", options.output}, {"frames", numbers.size()}},
                 fmt::format("{} frames in {}\n", numbers.size(), options.output));
