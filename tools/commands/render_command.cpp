@@ -2,6 +2,7 @@
 // frames, run.json and a video.
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "render/output/video.h"
 #include "scenes/text/input_error.h"
 #include "tools/commands/commands.h"
+#include "tools/frames/chunk.h"
 #include "tools/frames/frame_names.h"
 #include "tools/frames/state_folder.h"
 #include "tools/run/frame_folder.h"
@@ -31,6 +33,7 @@ struct RenderOptions {
     FolderOptions folder;
     std::string video;
     std::string frames;
+    std::string chunk;   ///< part of the frames, as parseChunk() takes it; empty: all of them
     std::string states;  ///< folder of states to draw; empty: the scene is simulated
     bool estimatesErrors = true;
 };
@@ -76,20 +79,41 @@ void checkOutputs(const RenderOptions& options, const scenes::Scene& scene, cons
     }
     if (pipesFrames(options)) {
         requirePipedOutput(options.run);
-        if (options.folder.resume || options.folder.overwrite)
-            throw scenes::InputError("-o -", "--resume and --overwrite are for a folder of frames");
+        if (options.folder.resume || options.folder.overwrite || options.folder.chunk)
+            throw scenes::InputError("-o -", "--resume, --overwrite and --chunk are for a folder of frames");
     } else {
         files.folders.push_back({"-o", options.folder.path, isRunFile});
     }
     requireSeparate(files);
 }
 
+/// The frames that are to be drawn, and in the options the chunk that they are; nothing if the chunk is empty.
+std::optional<FrameList> framesToDraw(RenderOptions& options, const scenes::Scene& scene) {
+    const FrameList all = frameList(options.frames, scenes::frameCount(scene));
+    if (options.chunk.empty()) return all;
+    FolderOptions& folder = options.folder;
+    folder.chunk = parseChunk(options.chunk, [](const char* name) -> const char* { return std::getenv(name); });
+    folder.allFrames = listText(all.numbers);
+    if (!options.video.empty())
+        throw scenes::InputError("--video",
+                                 "a chunk has only a part of the frames; `globular assemble` makes the video");
+    if (folder.overwrite)
+        throw scenes::InputError("--overwrite",
+                                 "chunks that start one after the other would remove each other's frames; remove the "
+                                 "folder before the first one");
+    return framesOf(all, *folder.chunk);
+}
+
 void render(RenderOptions options) {
     const scenes::Scene scene = load(options.scene, overridesOf(options.draw));
     const std::string name = runName(options.scene);
     if (options.folder.path.empty()) options.folder.path = (fs::path("out") / name).string();
+    const auto frames = framesToDraw(options, scene);
+    if (!frames)
+        return printResult(options.run, {{"event", "done"}, {"folder", options.folder.path}, {"run", nullptr}},
+                           fmt::format("chunk {} is empty: there are not so many frames\n", options.chunk));
     RenderJob job{drawJob(scene, options.draw, options.run, name),
-                  frameList(options.frames, scenes::frameCount(scene)),
+                  *frames,
                   options.folder,
                   options.video,
                   pipesFrames(options),
@@ -135,6 +159,7 @@ void addRenderCommand(CLI::App& program) {
             "draw the states that `globular simulate` has written of this scene, without simulating; title, "
             "duration, colors, what is drawn of obstacles, and [camera], [look], [overlay] and [still] may differ")
         ->type_name("DIR");
+    command.add_option("--chunk", options->chunk, kChunkHelp)->type_name("I/N");
     addTo(command, options->draw);
     addErrorFlag(command, options->estimatesErrors);
     addTo(command, options->run);

@@ -12,6 +12,14 @@ namespace tools {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+constexpr std::string_view kManifestName = "manifest.json";
+constexpr std::string_view kChunkManifestExtension = ".json";
+constexpr std::string_view kCheckpointPrefix = "checkpoint-";
+
+}  // namespace
+
 std::string FrameNames::fileName(int frame) const {
     return fmt::format("{}{:05}{}", prefix, frame, extension);
 }
@@ -25,9 +33,33 @@ std::optional<int> FrameNames::frameOf(const fs::path& file) const {
     return frame;
 }
 
+std::string checkpointPrefix(const std::optional<Chunk>& chunk) {
+    return chunk ? fmt::format("{}-{}", nameOf(*chunk), kCheckpointPrefix) : std::string(kCheckpointPrefix);
+}
+
+bool isCheckpointName(const fs::path& file) {
+    const std::string name = file.filename().string();
+    std::string_view rest = name;
+    if (takeChunkName(rest)) {
+        if (!rest.starts_with('-')) return false;
+        rest.remove_prefix(1);
+    }
+    return FrameNames{kCheckpointPrefix, kCheckpointExtension}.frameOf(fs::path(rest)).has_value();
+}
+
+std::string manifestName(const std::optional<Chunk>& chunk) {
+    return chunk ? fmt::format("{}{}", nameOf(*chunk), kChunkManifestExtension) : std::string(kManifestName);
+}
+
+bool isManifestName(const fs::path& file) {
+    const std::string name = file.filename().string();
+    std::string_view rest = name;
+    return takeChunkName(rest) ? rest == kChunkManifestExtension : rest == kManifestName;
+}
+
 bool isRunFile(const fs::path& file) {
-    return kPictureNames.frameOf(file) || kStateNames.frameOf(file) || kCheckpointNames.frameOf(file) ||
-           file.filename() == "manifest.json" || file.filename() == "run.json";
+    return kPictureNames.frameOf(file) || kStateNames.frameOf(file) || isCheckpointName(file) || isManifestName(file) ||
+           file.filename() == "run.json";
 }
 
 std::vector<fs::path> filesIn(const fs::path& folder) {

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/frames/chunk.h"
+
 namespace tools {
 
 /// How the numbered files of a run are named: a prefix, the frame number with at least five digits, an extension.
@@ -21,9 +23,23 @@ struct FrameNames {
 };
 inline constexpr FrameNames kPictureNames = {"frame-", ".png"};
 inline constexpr FrameNames kStateNames = {"particles-", ".ply"};
-inline constexpr FrameNames kCheckpointNames = {"checkpoint-", ".state"};
 
-/// Whether a run may write a file of this name into its folder: a frame, a checkpoint, manifest.json or run.json.
+/// Extension of checkpoints, which are numbered by frame.
+inline constexpr std::string_view kCheckpointExtension = ".state";
+
+/// Prefix of the names of a run's checkpoints: "checkpoint-", or for a chunk "chunk-2-of-4-checkpoint-".
+std::string checkpointPrefix(const std::optional<Chunk>& chunk);
+
+/// Whether a file has the name of a checkpoint, of a run of all frames or of any chunk.
+bool isCheckpointName(const std::filesystem::path& file);
+
+/// The name of a run's manifest: "manifest.json", or for a chunk "chunk-2-of-4.json".
+std::string manifestName(const std::optional<Chunk>& chunk);
+
+/// Whether a file has the name of a manifest, of a run of all frames or of any chunk.
+bool isManifestName(const std::filesystem::path& file);
+
+/// Whether a run may write a file of this name into its folder: a frame, a checkpoint, a manifest or run.json.
 bool isRunFile(const std::filesystem::path& file);
 
 /// The files in a folder, in no order.

@@ -35,6 +35,15 @@ int frameNumber(const Json& json) {
     return json.get<int>();
 }
 
+ChunkRecord chunkRecord(const Json& json) {
+    ChunkRecord chunk{json.at("machines"), json.at("report")};
+    if (!chunk.machines.is_array()) throw render::SystemError("\"machines\" is not a list");
+    for (const Json& machine : chunk.machines)
+        if (!machine.is_object()) throw render::SystemError("a machine is not an object");
+    if (!chunk.report.is_null() && !chunk.report.is_object()) throw render::SystemError("\"report\" is not an object");
+    return chunk;
+}
+
 Manifest parsed(const Json& json) {
     if (json.at("format") != kFormat)
         throw render::SystemError(fmt::format("its format is {}, not {}", compactText(json.at("format")), kFormat));
@@ -43,6 +52,8 @@ Manifest parsed(const Json& json) {
     if (!manifest.identity.is_object()) throw render::SystemError("\"run\" is not an object");
     if (json.contains("planned"))
         manifest.planned = {frameNumber(json.at("planned").at(0)), frameNumber(json.at("planned").at(1))};
+    manifest.asked = json.value("asked", "");
+    if (json.contains("chunk")) manifest.chunk = chunkRecord(json.at("chunk"));
     for (const auto& [number, frame] : json.at("frames").items())
         manifest.frames[frameNumber(number)] = {frame.at("checksum").get<std::string>(),
                                                 frame.at("state_hash").get<std::string>()};
@@ -76,8 +87,15 @@ std::string encodeManifest(const Manifest& manifest) {
     const std::string planned =
         manifest.planned ? fmt::format(" \"planned\": [{}, {}],\n", manifest.planned->first, manifest.planned->second)
                          : "";
-    return fmt::format("{}{},\n \"run\": {},\n{} \"checkpoints\": {},\n \"frames\": {{{}\n }}\n}}\n", kBeginning,
-                       kFormat, compactText(manifest.identity), planned, compactText(checkpoints), frames);
+    const std::string asked = manifest.asked.empty() ? "" : fmt::format(" \"asked\": \"{}\",\n", manifest.asked);
+    const std::string chunk =
+        manifest.chunk
+            ? fmt::format(" \"chunk\": {},\n",
+                          compactText({{"machines", manifest.chunk->machines}, {"report", manifest.chunk->report}}))
+            : "";
+    return fmt::format("{}{},\n \"run\": {},\n{}{}{} \"checkpoints\": {},\n \"frames\": {{{}\n }}\n}}\n", kBeginning,
+                       kFormat, compactText(manifest.identity), planned, asked, chunk, compactText(checkpoints),
+                       frames);
 }
 
 bool isManifest(std::span<const std::uint8_t> text) {

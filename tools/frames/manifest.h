@@ -25,6 +25,12 @@ struct CheckpointRecord {
     Json report;           ///< what the run had measured when the checkpoint was written
 };
 
+/// What the manifest of a chunk records besides.
+struct ChunkRecord {
+    Json machines = Json::array();  ///< what has drawn the frames: an object for each kind of machine
+    Json report;                    ///< what run.json says of a run; null until the chunk is complete
+};
+
 struct Manifest {
     Json identity;  ///< JSON object with everything that determines the bytes of the frames
     std::map<int, FrameRecord> frames;
@@ -32,6 +38,10 @@ struct Manifest {
     /// The first and the last frame that a run into this folder was asked for. A run that was killed may have written
     /// some of them that `frames` does not have yet.
     std::optional<std::pair<int, int>> planned;
+    /// The frames that runs into this folder were asked for, of all chunks together, as --frames takes them. Empty in
+    /// manifests of earlier versions.
+    std::string asked;
+    std::optional<ChunkRecord> chunk;  ///< nothing for a run of all frames
 
     /// Whether the file of this frame belongs to the runs of the manifest.
     bool lists(int frame) const {

@@ -7,6 +7,7 @@
 #include <array>
 #include <fstream>
 #include <iterator>
+#include <limits>
 
 #include "engine/run/checkpoint.h"
 #include "render/output/atomic_file.h"
@@ -15,6 +16,7 @@
 #include "tools/system/json.h"
 #include "tools/system/output_file.h"
 #include "tools/system/process.h"
+#include "tools/system/processors.h"
 
 namespace tools {
 namespace {
@@ -56,58 +58,97 @@ bool isRunReport(const fs::path& file) {
 
 FrameFolder::FrameFolder(const FolderOptions& options, FrameNames names, const FrameList& frames, const Json& identity)
     : folder_(options.path),
-      lock_(folder_),
+      chunk_(options.chunk),
+      lock_(folder_, options.chunk),
+      checkpointPrefix_(checkpointPrefix(options.chunk)),
       resumes_(options.resume),
       checkpointSeconds_(options.checkpointSeconds),
       names_(names) {
-    const fs::path path = folder_ / "manifest.json";
+    // Files are listed before manifests are read: another chunk that starts meanwhile writes its manifest before any
+    // frame.
+    const std::vector<fs::path> files = filesIn(folder_);
+    const bool isDamaged = readManifests(files, options.overwrite, identity);
+    requireOwnFiles(files, isDamaged);
+    if (options.overwrite) removeFrames();
+    manifest_.identity = identity;
+    plan(options, frames);
+    render::removeAbandonedFiles(folder_, isRunFile);
+    if (resumes_) keepIntactFrames();
+    if (resumes_) keepFramesOfOthers(frames);
+    writeManifest();
+}
+
+/// Reads all manifests in the folder. Makes sure that they are of the run with this identity, unless that run is going
+/// to overwrite the others. Returns whether one is damaged, in which case that run must be going to.
+bool FrameFolder::readManifests(const std::vector<fs::path>& files, bool overwrites, const Json& identity) {
     bool isDamaged = false;
-    if (fs::exists(path)) {
+    for (const fs::path& path : files) {
+        if (!isManifestName(path)) continue;
         const auto text = readFile(path);
         if (!isManifest(text)) failForeign(path);
+        Manifest manifest;
         try {
-            manifest_ = decodeManifest(text, path.string());
+            manifest = decodeManifest(text, path.string());
         } catch (const render::SystemError&) {
-            if (!options.overwrite) throw;
+            if (!overwrites) throw;
             isDamaged = true;
         }
-        const std::string different = options.overwrite ? "" : differences(manifest_.identity, identity);
+        const std::string different = overwrites ? "" : differences(manifest.identity, identity);
         if (!different.empty())
             throw render::SystemError(
                 fmt::format("{} holds frames of another run ({}); choose another folder, or --overwrite them",
                             folder_.string(), different));
+        (path.filename() == manifestName(chunk_) ? manifest_ : others_.emplace_back()) = std::move(manifest);
     }
-    requireOwnFiles(isDamaged);
-    if (options.overwrite) removeFrames();
-    manifest_.identity = identity;
-    const auto [first, last] = manifest_.planned.value_or(std::pair(frames.first(), frames.last()));
-    manifest_.planned = {std::min(first, frames.first()), std::max(last, frames.last())};
-    render::removeAbandonedFiles(folder_, isRunFile);
-    if (resumes_) keepIntactFrames();
-    writeManifest();
+    return isDamaged;
 }
 
 /// Makes sure that every file whose name the run may use was written by a run into this folder.
-/// @param isDamaged  whether the manifest can no longer tell which frames were
-void FrameFolder::requireOwnFiles(bool isDamaged) const {
-    // A manifest of `render` lists pictures, one of `simulate` particle states.
-    const FrameNames& listed = manifest_.identity.contains("size") ? kPictureNames : kStateNames;
-    for (const fs::path& file : filesIn(folder_)) {
+/// @param isDamaged  whether the manifests can no longer tell which frames were
+void FrameFolder::requireOwnFiles(const std::vector<fs::path>& files, bool isDamaged) const {
+    const auto lists = [](const Manifest& manifest, int frame, const fs::path& file) {
+        // A manifest of `render` lists pictures, one of `simulate` particle states.
+        const FrameNames& listed = manifest.identity.contains("size") ? kPictureNames : kStateNames;
+        return manifest.lists(frame) && listed.frameOf(file);
+    };
+    for (const fs::path& file : files) {
         std::optional<int> frame = kPictureNames.frameOf(file);
         if (!frame) frame = kStateNames.frameOf(file);
-        const bool isOwn = frame ? isDamaged || (manifest_.lists(*frame) && listed.frameOf(file))
-                           : kCheckpointNames.frameOf(file) ? isCheckpoint(file)
-                           : file.filename() == "run.json"  ? isRunReport(file)
-                                                            : true;
+        const auto listsIt = [&](const Manifest& manifest) { return lists(manifest, *frame, file); };
+        const bool isOwn = frame ? isDamaged || listsIt(manifest_) || std::ranges::any_of(others_, listsIt)
+                           : isCheckpointName(file)        ? isCheckpoint(file)
+                           : file.filename() == "run.json" ? isRunReport(file)
+                                                           : true;
         if (!isOwn) failForeign(file);
     }
 }
 
-/// Removes all that earlier runs have left. The manifest goes last, so that it lists what is left if this fails.
+/// Removes all that earlier runs have left. The manifests go last, so that they list what is left if this fails.
 void FrameFolder::removeFrames() {
-    for (const fs::path& file : filesIn(folder_))
-        if (isRunFile(file) && file.filename() != "manifest.json") removeFile(file);
+    const std::vector<fs::path> files = filesIn(folder_);
+    for (const fs::path& file : files)
+        if ((isRunFile(file) && !isManifestName(file)) || isChunkLock(file)) removeFile(file);
+    for (const fs::path& file : files)
+        if (isManifestName(file) && file.filename() != manifestName(chunk_)) removeFile(file);
     manifest_ = {};
+    others_.clear();
+}
+
+/// Adds the frames that the run is asked for to the manifest, and what makes them.
+void FrameFolder::plan(const FolderOptions& options, const FrameList& frames) {
+    const auto [first, last] = manifest_.planned.value_or(std::pair(frames.first(), frames.last()));
+    manifest_.planned = {std::min(first, frames.first()), std::max(last, frames.last())};
+    std::string asked = chunk_ ? options.allFrames : listText(frames.numbers);
+    if (!manifest_.asked.empty()) asked = fmt::format("{},{}", manifest_.asked, asked);
+    manifest_.asked = listText(frameList(asked, std::numeric_limits<int>::max()).numbers);
+    if (!chunk_) return;
+    if (!manifest_.chunk) manifest_.chunk.emplace();
+    ChunkRecord& chunk = *manifest_.chunk;
+    chunk.report = nullptr;
+    const ProcessorKind processor = processorKind();
+    const Json machine = {{"cpu_vendor", processor.vendor}, {"cpu", processor.model}};
+    // A chunk may be resumed on a machine of another kind.
+    if (std::ranges::find(chunk.machines, machine) == chunk.machines.end()) chunk.machines.push_back(machine);
 }
 
 FrameFolder::~FrameFolder() {
@@ -131,6 +172,19 @@ void FrameFolder::keepIntactFrames() {
     manifest_.frames = kept_;
 }
 
+/// Keeps those of the frames that other chunks have made. A chunk does not take them into its own manifest, which says
+/// what has drawn its frames.
+void FrameFolder::keepFramesOfOthers(const FrameList& frames) {
+    for (const Manifest& other : others_)
+        for (const int frame : frames.numbers) {
+            const auto record = other.frames.find(frame);
+            if (isKept(frame) || record == other.frames.end() || !fs::exists(pathOf(frame))) continue;
+            if (checksumOf(readFile(pathOf(frame))) != record->second.checksum) continue;
+            kept_[frame] = record->second;
+            if (!chunk_) manifest_.frames[frame] = record->second;
+        }
+}
+
 fs::path FrameFolder::pathOf(int frame) const {
     return folder_ / names_.fileName(frame);
 }
@@ -139,7 +193,7 @@ std::optional<RestartPoint> FrameFolder::restartPoint(const engine::Setup& setup
     if (!resumes_) return std::nullopt;
     for (auto next = manifest_.checkpoints.upper_bound(latest); next != manifest_.checkpoints.begin();) {
         const auto& [frame, record] = *--next;
-        const fs::path path = folder_ / kCheckpointNames.fileName(frame);
+        const fs::path path = folder_ / checkpointNames().fileName(frame);
         try {
             const auto bytes = readFile(path);
             if (checksumOf(bytes) != record.checksum) throw engine::CheckpointError("it is damaged or truncated");
@@ -161,7 +215,7 @@ void FrameFolder::write(int frame, std::span<const std::uint8_t> bytes, const st
 }
 
 void FrameFolder::writeCheckpoint(int frame, std::span<const std::uint8_t> bytes, const Json& report) {
-    writeFile(folder_ / kCheckpointNames.fileName(frame), bytes);
+    writeFile(folder_ / checkpointNames().fileName(frame), bytes);
     auto& all = manifest_.checkpoints;
     all[frame] = {checksumOf(bytes), report};
     // A longer run may have left checkpoints after this frame. The newest is kept, for that run to resume from.
@@ -170,16 +224,18 @@ void FrameFolder::writeCheckpoint(int frame, std::span<const std::uint8_t> bytes
     while (std::distance(all.begin(), all.upper_bound(frame)) > kCheckpointCount) all.erase(all.begin());
     writeManifest();
     for (const fs::path& file : filesIn(folder_))
-        if (const auto old = kCheckpointNames.frameOf(file); old && all.count(*old) == 0 && isCheckpoint(file))
+        if (const auto old = checkpointNames().frameOf(file); old && all.count(*old) == 0 && isCheckpoint(file))
             removeFile(file);
 }
 
-void FrameFolder::writeReport(const Json& json) const {
-    writeFile(folder_ / "run.json", indentedText(json));
+void FrameFolder::writeReport(const Json& json) {
+    if (!chunk_) return writeFile(folder_ / "run.json", indentedText(json));
+    manifest_.chunk->report = json;
+    writeManifest();
 }
 
 void FrameFolder::writeManifest() {
-    writeFile(folder_ / "manifest.json", encodeManifest(manifest_));
+    writeFile(folder_ / manifestName(chunk_), encodeManifest(manifest_));
     isManifestCurrent_ = true;
     lastManifest_ = std::chrono::steady_clock::now();
 }

@@ -1,5 +1,7 @@
 // The folder that a run writes its frames into: one file for each frame, a manifest, and the last two checkpoints. That
-// is all that is needed to resume the run, however it ended. Used by `render` and `simulate`.
+// is all that is needed to resume the run, however it ended. The chunks of a run share a folder: their frames have the
+// names that they have in a run of all frames, and each chunk has a manifest and checkpoints of its own. Used by
+// `render` and `simulate`.
 #pragma once
 
 #include <chrono>
@@ -7,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/run/advance.h"
 #include "tools/frames/folder_lock.h"
@@ -40,7 +43,8 @@ class FrameFolder {
     FrameFolder(const FrameFolder&) = delete;
     FrameFolder& operator=(const FrameFolder&) = delete;
 
-    /// Whether the frame's file was there and intact when the folder was opened, so that it need not be made again.
+    /// Whether the frame's file was there and intact when the folder was opened, whoever had made it, so that it need
+    /// not be made again.
     bool isKept(int frame) const { return kept_.count(frame) == 1; }
 
     std::filesystem::path pathOf(int frame) const;
@@ -60,21 +64,28 @@ class FrameFolder {
     /// @pre the files of all frames up to this one are written
     void writeCheckpoint(int frame, std::span<const std::uint8_t> bytes, const Json& report);
 
-    /// Writes run.json.
-    void writeReport(const Json& json) const;
+    /// Writes run.json, or for a chunk what would be in it into the chunk's manifest.
+    void writeReport(const Json& json);
 
  private:
-    void requireOwnFiles(bool isDamaged) const;
+    bool readManifests(const std::vector<std::filesystem::path>& files, bool overwrites, const Json& identity);
+    void requireOwnFiles(const std::vector<std::filesystem::path>& files, bool isDamaged) const;
     void removeFrames();
+    void plan(const FolderOptions& options, const FrameList& frames);
     void keepIntactFrames();
+    void keepFramesOfOthers(const FrameList& frames);
+    FrameNames checkpointNames() const { return {checkpointPrefix_, kCheckpointExtension}; }
     void writeManifest();
 
     std::filesystem::path folder_;
+    std::optional<Chunk> chunk_;
     FolderLock lock_;
+    std::string checkpointPrefix_;
     bool resumes_ = false;
     double checkpointSeconds_ = 0.0;
     FrameNames names_;
     Manifest manifest_;
+    std::vector<Manifest> others_;  ///< manifests of other chunks, or of a run of all frames, in the same folder
     std::map<int, FrameRecord> kept_;
     bool isManifestCurrent_ = true;  ///< whether the manifest on disk lists every frame
     std::chrono::steady_clock::time_point lastManifest_;

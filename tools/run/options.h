@@ -3,12 +3,14 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "render/opengl/context/device.h"
 #include "render/picture/view.h"
 #include "scenes/model/scene.h"
+#include "tools/frames/chunk.h"
 #include "tools/system/json.h"
 #include "tools/system/progress.h"
 
@@ -59,6 +61,8 @@ struct FolderOptions {
     bool resume = false;             ///< whether intact frames of the same run stay
     bool overwrite = false;          ///< whether all files of an earlier run are removed from the folder first
     double checkpointSeconds = 5.0;  ///< wall-clock time between two checkpoints, s
+    std::optional<Chunk> chunk;      ///< the part of the run that is to be made; nothing: all of it
+    std::string allFrames;           ///< the frames of all chunks, as --frames takes them; only for a chunk
 };
 
 /// How the frames of a scene are drawn, by render_loop.h or stills.h.

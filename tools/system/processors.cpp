@@ -73,6 +73,24 @@ double processorQuota(const fs::path& membership, const fs::path& mounts) {
     return least;
 }
 
+ProcessorKind processorKind(const fs::path& description) {
+    ProcessorKind kind;
+    const auto take = [](std::string& text, const std::string& value) {
+        if (text.empty()) text = value;
+    };
+    std::ifstream lines(description);
+    for (std::string line; std::getline(lines, line);) {
+        // A name, blanks, a colon, a blank and a value; an empty line follows each processor.
+        const std::size_t colon = line.find(':');
+        if (colon == std::string::npos) continue;
+        const std::string name = line.substr(0, line.find_last_not_of(" \t:", colon) + 1);
+        const std::string value = line.substr(std::min(line.size(), colon + 2));
+        if (name == "vendor_id" || name == "CPU implementer") take(kind.vendor, value);
+        if (name == "model name" || name == "CPU part") take(kind.model, value);
+    }
+    return kind;
+}
+
 int usableProcessors() {
     const double quota = processorQuota("/proc/self/cgroup", "/sys/fs/cgroup");
     return std::max(1, static_cast<int>(std::min<double>(processorsByAffinity(), quota)));
