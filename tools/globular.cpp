@@ -91,6 +91,7 @@ int main(int argc, char** argv) {
     tools::addSimulateCommand(program);
     tools::addFiguresCommand(program);
     tools::addVideoCommand(program);
+    tools::addAssembleCommand(program);
     tools::addCompareCommand(program);
     tools::addApproveCommand(program);
     tools::addCheckCommand(program);

@@ -16,6 +16,7 @@ void addStripCommand(CLI::App& program);
 void addSimulateCommand(CLI::App& program);
 void addFiguresCommand(CLI::App& program);
 void addVideoCommand(CLI::App& program);
+void addAssembleCommand(CLI::App& program);
 void addCompareCommand(CLI::App& program);
 void addApproveCommand(CLI::App& program);
 void addCheckCommand(CLI::App& program);
