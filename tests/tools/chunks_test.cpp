@@ -73,8 +73,8 @@ TEST_CASE("A chunk is given by its number or by the task of a job array", "[chun
     using tools::Chunk;
     const auto chunk = [](const char* text) { return tools::parseChunk(text, variable); };
     slurm.clear();
-    CHECK(chunk("1/1") == Chunk{1, 1});
-    CHECK(chunk("3/4") == Chunk{3, 4});
+    CHECK(chunk("1/1") == Chunk{1, 1, {}});
+    CHECK(chunk("3/4") == Chunk{3, 4, {}});
     CHECK(problemOf("0/4") == "--chunk 0/4: there are chunks 1/4 to 4/4");
     CHECK(problemOf("5/4") == "--chunk 5/4: there are chunks 1/4 to 4/4");
     for (const char* wrong : {"", "1", "/", "1/", "/2", "a/2", "1/0", "1/2/3", "automatic", "1/100001"})
@@ -91,11 +91,11 @@ TEST_CASE("A chunk is given by its number or by the task of a job array", "[chun
                  {"SLURM_ARRAY_TASK_COUNT", count}};
     };
     task("0", "0", "3", "1", "4");
-    CHECK(chunk("auto") == Chunk{1, 4});
+    CHECK(chunk("auto") == Chunk{1, 4, {}});
     task("4", "1", "4", "1", "4");
-    CHECK(chunk("auto") == Chunk{4, 4});
+    CHECK(chunk("auto") == Chunk{4, 4, {}});
     task("20", "10", "30", "10", "3");
-    CHECK(chunk("auto") == Chunk{2, 3});
+    CHECK(chunk("auto") == Chunk{2, 3, {}});
     task("3", "0", "7", "1", "3");  // --array=0,3,7
     CHECK(
         problemOf("auto") ==
@@ -118,15 +118,15 @@ TEST_CASE("A chunk is given by its number or by the task of a job array", "[chun
 
 TEST_CASE("Chunks interleave, and share out every frame once", "[chunks]") {
     const tools::FrameList frames{{2, 3, 5, 7, 11, 13, 17}};
-    CHECK(tools::framesOf(frames, {1, 3})->numbers == std::vector<int>{2, 7, 17});
-    CHECK(tools::framesOf(frames, {2, 3})->numbers == std::vector<int>{3, 11});
-    CHECK(tools::framesOf(frames, {3, 3})->numbers == std::vector<int>{5, 13});
-    CHECK(tools::framesOf(frames, {7, 8})->numbers == std::vector<int>{17});
-    CHECK_FALSE(tools::framesOf(frames, {8, 8}));
+    CHECK(tools::framesOf(frames, {1, 3, {}})->numbers == std::vector<int>{2, 7, 17});
+    CHECK(tools::framesOf(frames, {2, 3, {}})->numbers == std::vector<int>{3, 11});
+    CHECK(tools::framesOf(frames, {3, 3, {}})->numbers == std::vector<int>{5, 13});
+    CHECK(tools::framesOf(frames, {7, 8, {}})->numbers == std::vector<int>{17});
+    CHECK_FALSE(tools::framesOf(frames, {8, 8, {}}));
 }
 
 TEST_CASE("The files of chunks are told by their names", "[chunks]") {
-    const tools::Chunk chunk{2, 14};
+    const tools::Chunk chunk{2, 14, {}};
     CHECK(tools::manifestName(chunk) == "chunk-2-of-14.json");
     CHECK(tools::checkpointPrefix(chunk) == "chunk-2-of-14-checkpoint-");
     for (const char* name : {"manifest.json", "chunk-2-of-14.json"}) CHECK(tools::isManifestName(name));
@@ -206,6 +206,27 @@ TEST_CASE("Chunks that simulate draw the same frames", "[chunks]") {
     REQUIRE(scene.assemble().code == 0);
     for (int frame = 0; frame < 13; frame += 2) CHECK(scene.frame("out", frame) == scene.frame("direct", frame));
     CHECK(scene.json("out/manifest.json")["asked"] == "0-12:2");
+}
+
+TEST_CASE("Lists of frames that a render farm hands out are chunks, too", "[chunks]") {
+    const Chunks scene;
+    const auto draw = [&](const std::string& frames) { return scene.draw("list", "--frames '" + frames + "'"); };
+    const auto outcome =
+        program::shell(GLOBULAR_PROGRAM " " + draw("0-4") + " & " GLOBULAR_PROGRAM " " + draw("5, 7-9:2") + "; wait");
+    CHECK(outcome.err.empty());
+    CHECK(scene.assemble("--print-missing").code == 0);
+    const auto missing = scene.assemble("--frames 0-9 --print-missing");
+    CHECK(missing.code == 1);
+    CHECK(missing.out == "6,8\n");
+    CHECK(scene.assemble("--frames 0-").code == 2);
+    REQUIRE(run(draw("6,8")).code == 0);
+    CHECK(scene.assemble("--frames 0-9").code == 0);
+    REQUIRE(run(scene.MovingScene::draw("direct", "--frames 0-9")).code == 0);
+    for (int frame = 0; frame < 10; ++frame) CHECK(scene.frame("out", frame) == scene.frame("direct", frame));
+    std::string_view name = "chunk-list-0123456789abcdef.json";
+    CHECK(tools::isManifestName(name));
+    CHECK(tools::takeChunkName(name)->list == "0123456789abcdef");
+    CHECK(name == ".json");
 }
 
 TEST_CASE("A chunk that was killed is resumed, and nothing else is drawn again", "[chunks]") {
@@ -301,7 +322,7 @@ TEST_CASE("Two runs of a chunk, or a chunk and a run of all frames, do not write
     REQUIRE(::flock(file, LOCK_EX) == 0);
     auto outcome = run(scene.draw("1/2"));
     CHECK(outcome.code == 1);
-    CHECK(outcome.err == "error: another run is writing chunk 1/2 into " + scene.out.string() + "\n");
+    CHECK(outcome.err == "error: another run is writing chunk-1-of-2 into " + scene.out.string() + "\n");
     CHECK(run(scene.draw("2/2")).code == 0);
     ::close(file);
     // What a killed chunk leaves does not hold the next one up.

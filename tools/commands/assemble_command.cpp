@@ -4,11 +4,13 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "render/output/video.h"
 #include "render/picture/system_error.h"
+#include "scenes/text/input_error.h"
 #include "tools/commands/commands.h"
 #include "tools/frames/folder_lock.h"
 #include "tools/frames/frame_list.h"
@@ -27,9 +29,13 @@ namespace fs = std::filesystem;
 struct AssembleOptions {
     RunOptions run;
     std::string folder;
-    std::string video;  ///< empty: none
+    std::string frames;  ///< that have to be there, as --frames takes them; empty: those that were asked for
+    std::string video;   ///< empty: none
     bool printsMissing = false;
 };
+
+/// Frames are numbered below this. Chosen: a scene of a million seconds at 240 frames a second has fewer.
+constexpr int kMostFrames = 1 << 28;
 
 /// The exit code where frames are missing.
 constexpr int kIncompleteCode = 1;
@@ -83,10 +89,21 @@ void writeVideo(const AssembleOptions& options, const JoinedFrames& joined) {
     makeVideo({options.folder, numbers, *rate, options.video}, progress);
 }
 
+/// The frames that --frames names; nothing without it.
+std::optional<FrameList> wantedFrames(const AssembleOptions& options) {
+    if (options.frames.empty()) return std::nullopt;
+    const bool isOpen = options.frames.ends_with('-') || options.frames.find("-,") != std::string::npos ||
+                        options.frames.find("-:") != std::string::npos;
+    if (isOpen)
+        throw scenes::InputError("--frames " + options.frames,
+                                 "assemble does not know the scene's last frame; name it");
+    return frameList(options.frames, kMostFrames);
+}
+
 void assemble(const AssembleOptions& options) {
     if (!fs::is_directory(options.folder)) throw render::SystemError(fmt::format("{} is not a folder", options.folder));
     checkOutput(options);
-    const JoinedFrames joined = joinFrames(options.folder);
+    const JoinedFrames joined = joinFrames(options.folder, wantedFrames(options));
     requireWhole(options, joined);
     if (options.printsMissing) return;
     if (const std::string warning = machineWarning(joined); !warning.empty()) printWarning(warning);
@@ -110,6 +127,10 @@ void addAssembleCommand(CLI::App& program) {
         *program.add_subcommand("assemble", "check and join the frames that chunks have drawn, and make their video");
     const auto options = std::make_shared<AssembleOptions>();
     command.add_option("DIR", options->folder, "folder that `globular render --chunk` has drawn into")->required();
+    command
+        .add_option("--frames", options->frames,
+                    "the frames that have to be there, e.g. 0-119 (default: those that the chunks were asked for)")
+        ->type_name("FRAMES");
     CLI::Option* const video =
         command
             .add_option("-o,--output", options->video,

@@ -92,7 +92,9 @@ std::optional<FrameList> framesToDraw(RenderOptions& options, const scenes::Scen
     const FrameList all = frameList(options.frames, scenes::frameCount(scene));
     if (options.chunk.empty()) return all;
     FolderOptions& folder = options.folder;
-    folder.chunk = parseChunk(options.chunk, [](const char* name) -> const char* { return std::getenv(name); });
+    const auto environment = [](const char* name) -> const char* { return std::getenv(name); };
+    const bool isList = options.chunk == "list";
+    folder.chunk = isList ? chunkOfList(all) : parseChunk(options.chunk, environment);
     folder.allFrames = listText(all.numbers);
     if (!options.video.empty())
         throw scenes::InputError("--video",
@@ -101,7 +103,7 @@ std::optional<FrameList> framesToDraw(RenderOptions& options, const scenes::Scen
         throw scenes::InputError("--overwrite",
                                  "chunks that start one after the other would remove each other's frames; remove the "
                                  "folder before the first one");
-    return framesOf(all, *folder.chunk);
+    return isList ? all : framesOf(all, *folder.chunk);
 }
 
 void render(RenderOptions options) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "engine/core/hash.h"
 #include "scenes/text/input_error.h"
 #include "tools/system/text.h"
 
@@ -12,6 +13,18 @@ namespace tools {
 namespace {
 
 constexpr std::string_view kAuto = "auto";
+constexpr std::string_view kListPrefix = "chunk-list-";
+
+/// The chunk of a list whose files have a name that begins like this one. Cuts its name off the text.
+std::optional<Chunk> takeListName(std::string_view& fileName) {
+    constexpr std::size_t kHashLength = 16;
+    const std::string_view hash =
+        fileName.starts_with(kListPrefix) ? fileName.substr(kListPrefix.size(), kHashLength) : std::string_view();
+    if (hash.size() != kHashLength || hash.find_first_not_of("0123456789abcdef") != std::string_view::npos)
+        return std::nullopt;
+    fileName.remove_prefix(kListPrefix.size() + kHashLength);
+    return Chunk{1, 1, std::string(hash)};
+}
 
 /// The largest number of chunks. Chosen: no scene has more frames by default.
 constexpr int kMostChunks = 100000;
@@ -49,7 +62,7 @@ Chunk chunkOfTask(const SlurmArray& array) {
             array.flag, fmt::format("task {} belongs to an array that is not evenly spaced from {} to {}; with auto/N "
                                     "any tasks can be submitted",
                                     task, first, last));
-    return {(task - first) / step + 1, (last - first) / step + 1};
+    return {(task - first) / step + 1, (last - first) / step + 1, {}};
 }
 
 }  // namespace
@@ -64,13 +77,13 @@ Chunk parseChunk(const std::string& text, const char* (*environment)(const char*
         slash == std::string::npos ? std::nullopt : parseNumber(std::string_view(text).substr(slash + 1));
     if (!count || *count < 1 || *count > kMostChunks)
         throw scenes::InputError(
-            flag,
-            fmt::format("must be I/N, chunk I of N (1 to {}), or in a Slurm job array auto or auto/N", kMostChunks));
-    if (first == kAuto) return {array.number("SLURM_ARRAY_TASK_ID") % *count + 1, *count};
+            flag, fmt::format("must be I/N, chunk I of N (1 to {}), in a Slurm job array auto or auto/N, or list",
+                              kMostChunks));
+    if (first == kAuto) return {array.number("SLURM_ARRAY_TASK_ID") % *count + 1, *count, {}};
     const auto index = parseNumber(first);
     if (!index || *index < 1 || *index > *count)
         throw scenes::InputError(flag, fmt::format("there are chunks 1/{0} to {0}/{0}", *count));
-    return {*index, *count};
+    return {*index, *count, {}};
 }
 
 std::optional<FrameList> framesOf(const FrameList& frames, const Chunk& chunk) {
@@ -80,7 +93,12 @@ std::optional<FrameList> framesOf(const FrameList& frames, const Chunk& chunk) {
     return part.numbers.empty() ? std::nullopt : std::optional(part);
 }
 
+Chunk chunkOfList(const FrameList& frames) {
+    return {1, 1, engine::hexadecimal(engine::fnv1a(listText(frames.numbers)))};
+}
+
 std::string nameOf(const Chunk& chunk) {
+    if (!chunk.list.empty()) return fmt::format("{}{}", kListPrefix, chunk.list);
     return fmt::format("chunk-{}-of-{}", chunk.index, chunk.count);
 }
 
@@ -92,11 +110,12 @@ std::optional<Chunk> takeChunkName(std::string_view& fileName) {
         text.remove_prefix(end);
         return number;
     };
+    if (auto list = takeListName(fileName)) return list;
     std::string_view rest = fileName;
     const auto index = numberAfter(rest, "chunk-");
     const auto count = index ? numberAfter(rest, "-of-") : std::nullopt;
     if (!count) return std::nullopt;
-    const Chunk chunk{*index, *count};
+    const Chunk chunk{*index, *count, {}};
     const bool isWritten = 1 <= chunk.index && chunk.index <= chunk.count && fileName.starts_with(nameOf(chunk));
     if (!isWritten) return std::nullopt;
     fileName = rest;

@@ -77,8 +77,7 @@ void FolderLock::lockFile(const fs::path& folder, const Chunk& chunk) {
         file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
         if (file_ < 0)
             throw render::SystemError(fmt::format("cannot write {}: {}", path_.string(), std::strerror(errno)));
-        lock(file_, LOCK_EX, path_,
-             fmt::format("another run is writing chunk {}/{} into {}", chunk.index, chunk.count, folder.string()));
+        lock(file_, LOCK_EX, path_, fmt::format("another run is writing {} into {}", nameOf(chunk), folder.string()));
         if (!isAt(file_, path_)) ::close(std::exchange(file_, -1));
     }
 }

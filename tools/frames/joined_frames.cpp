@@ -32,7 +32,7 @@ struct NamedManifest {
 std::tuple<int, int> orderOf(const fs::path& path) {
     const std::string name = path.filename().string();
     std::string_view rest = name;
-    const Chunk chunk = takeChunkName(rest).value_or(Chunk{0, 0});
+    const Chunk chunk = takeChunkName(rest).value_or(Chunk{0, 0, {}});
     return {chunk.count, chunk.index};
 }
 
@@ -101,14 +101,15 @@ std::vector<int> JoinedFrames::toDraw() const {
     return frames;
 }
 
-JoinedFrames joinFrames(const fs::path& folder) {
+JoinedFrames joinFrames(const fs::path& folder, const std::optional<FrameList>& wanted) {
     const std::vector<NamedManifest> manifests = manifestsIn(folder);
     JoinedFrames joined;
     joined.manifest.identity = manifests.front().manifest.identity;
     std::set<int> frames;
+    if (wanted) frames.insert(wanted->numbers.begin(), wanted->numbers.end());
     for (const NamedManifest& each : manifests) {
         const std::vector<int> asked = framesAskedFor(each.manifest);
-        frames.insert(asked.begin(), asked.end());
+        if (!wanted) frames.insert(asked.begin(), asked.end());
         if (!each.manifest.chunk) {
             joined.manifest.checkpoints = each.manifest.checkpoints;
             continue;

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "tools/frames/frame_list.h"
 #include "tools/frames/manifest.h"
 #include "tools/system/json.h"
 
@@ -26,9 +28,10 @@ struct JoinedFrames {
 };
 
 /// Joins what the manifests in a folder list, and compares each frame's file with its checksum.
+/// @param wanted  the frames that have to be there; nothing: those that the runs were asked for
 /// @throws render::SystemError if there is no manifest of pictures, one cannot be read, or two are of different runs,
 /// such as by different renderers
-JoinedFrames joinFrames(const std::filesystem::path& folder);
+JoinedFrames joinFrames(const std::filesystem::path& folder, const std::optional<FrameList>& wanted = std::nullopt);
 
 /// What may make the frames differ in their last bits although they are of one run; empty if nothing is known to. The
 /// CPU renderer has the same bits on any machine. OpenGL on a CPU has not: Intel's and AMD's round some of its
