@@ -37,7 +37,7 @@ fi
 
 build release globular {engine,golden,memory}_tests
 # The kill harness sleeps most of the time: beside the next build.
-ctest --preset release --parallel 2 -R '^(engine|golden|memory|kill|hard_cases)_tests$' &
+ctest --preset release --parallel 2 -R '^(engine|golden|memory|kill|hard_cases|slurm|parallel|openjd)_tests$' &
 build tsan
 wait $!
 # In parallel runs sanitized suites keep to a core each: this one, too, though it is alone. Beside the build, because beside

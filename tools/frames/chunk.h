@@ -23,9 +23,9 @@ struct Chunk {
 /// How --chunk is written, for the help of the commands.
 inline constexpr const char* kChunkHelp =
     "draw one of N interleaved parts, counted from 1, of the frames: the I-th, the (I+N)-th, and so on. auto: the part "
-    "of this task of a Slurm job array; auto/N: also where single tasks are resubmitted. list: the frames that --frames "
-    "names, as render farms hand them out. Parts may be drawn into one folder at the same time, see assemble. Without "
-    "--states each simulates from the start";
+    "of this task of a Slurm job array; auto/N: also where single tasks are resubmitted. list: the frames that "
+    "--frames names, as render farms hand them out. Parts may be drawn into one folder at the same time, see assemble. "
+    "Without --states each simulates from the start";
 
 /// The chunk that a text such as "2/4", "auto" or "auto/4" names. "auto" counts the tasks of the Slurm job array that
 /// the process belongs to, which must be evenly spaced. "auto/N" is chunk ID modulo N, whichever tasks the array has.
