@@ -175,6 +175,7 @@ TEST_CASE("Chunks drawn at the same time give the frames and the film of one run
     }
     CHECK(scene.names() == wanted);
     const auto manifest = scene.json("out/manifest.json");
+    CHECK(manifest["asked"] == "0-19");
     CHECK(manifest["frames"] == scene.json("direct/manifest.json")["frames"]);
     CHECK(manifest["run"] == scene.json("direct/manifest.json")["run"]);
     const auto report = scene.json("out/run.json");
@@ -302,6 +303,34 @@ TEST_CASE("Chunks of different runs are not put together", "[chunks]") {
     CHECK(!fs::exists(scene.out / "manifest.json"));
     CHECK(run("assemble " + scene.states).err.find("lists states, not pictures") != std::string::npos);
     CHECK(run("assemble " + (scene.folder / "").string()).err.find("holds no frames of a run") != std::string::npos);
+}
+
+TEST_CASE("A run of all frames that ended early is not whole, either", "[chunks]") {
+    const Chunks scene;
+    REQUIRE(run(scene.fromStates("out", "--frames 0-4")).code == 0);
+    CHECK(scene.assemble().code == 0);
+    // As if it had been killed: its manifest asks for more than it lists.
+    std::string text = textOf(scene.out / "manifest.json");
+    const std::string asked = "\"asked\": \"0-4\"";
+    REQUIRE(text.find(asked) != std::string::npos);
+    program::writeText(scene.out / "manifest.json", text.replace(text.find(asked), asked.size(), "\"asked\": \"0-7\""));
+    CHECK(scene.assemble("--print-missing").out == "5-7\n");
+    // Chunks may complete it.
+    REQUIRE(run(scene.draw("1/1", "--frames 0-7 --resume")).code == 0);
+    CHECK(scene.assemble().code == 0);
+    CHECK(scene.json("out/manifest.json")["frames"].size() == 8);
+}
+
+TEST_CASE("A chunk removes what killed runs have left of its own frames alone", "[chunks]") {
+    const Chunks scene;
+    fs::create_directories(scene.out);
+    for (const char* name : {".frame-00000.png.abcdef.partial", ".frame-00001.png.abcdef.partial"})
+        program::writeText(scene.out / name, "x");
+    REQUIRE(run(scene.draw("1/2")).code == 0);
+    CHECK(!fs::exists(scene.out / ".frame-00000.png.abcdef.partial"));
+    CHECK(fs::exists(scene.out / ".frame-00001.png.abcdef.partial"));
+    REQUIRE(run(scene.draw("2/2")).code == 0);
+    CHECK(!fs::exists(scene.out / ".frame-00001.png.abcdef.partial"));
 }
 
 TEST_CASE("Flags that make no sense for a chunk are refused", "[chunks]") {

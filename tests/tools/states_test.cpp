@@ -30,7 +30,8 @@ TEST_CASE("Pictures drawn from states are those of a run that simulates, byte fo
     REQUIRE(births["births"] > 20);
     REQUIRE(births["deaths"] > 20);
     const std::string video = (scene.folder / "direct.mp4").string();
-    for (const std::string look : {"--style spheres", "--style metaballs --quality draft --set look.color_by=speed"}) {
+    for (const std::string look : {"--style spheres --set look.color_by=speed", "--style spheres",
+                                   "--style metaballs --quality draft --set look.skin=smooth"}) {
         REQUIRE(run(scene.draw("direct", "--overwrite --video " + video + " " + look)).code == 0);
         const std::string again = (scene.folder / "again.mp4").string();
         REQUIRE(run(scene.fromStates("again", "--overwrite --video " + again + " " + look)).code == 0);
@@ -53,13 +54,14 @@ TEST_CASE("Pictures drawn from states are those of a run that simulates, byte fo
     CHECK(!drawn.contains("steps"));
 
     // Single frames, from standard output and after an early end.
-    REQUIRE(run(scene.fromStates("some", "--style metaballs --quality draft --set look.color_by=speed --frames 7,18"))
-                .code == 0);
+    REQUIRE(
+        run(scene.fromStates("some", "--style metaballs --quality draft --set look.skin=smooth --frames 7,18")).code ==
+        0);
     CHECK(scene.frame("some", 18) == scene.frame("direct", 18));
     fs::remove(scene.folder / "some/frame-00007.png");
-    REQUIRE(run(scene.fromStates("some",
-                                 "--style metaballs --quality draft --set look.color_by=speed --frames 7,18 --resume"))
-                .code == 0);
+    REQUIRE(
+        run(scene.fromStates("some", "--style metaballs --quality draft --set look.skin=smooth --frames 7,18 --resume"))
+            .code == 0);
     CHECK(scene.frame("some", 7) == scene.frame("direct", 7));
 }
 
@@ -122,6 +124,11 @@ TEST_CASE("States that are missing or damaged are named", "[states]") {
     INFO(same.err);
     CHECK(same.code == 2);
     CHECK(fs::exists(scene.folder / "states/particles-00005.ply"));
+    replaceIn(scene.folder / "states/manifest.json", "\"version\":\"", "\"version\":\"0.0.");
+    const auto old = draw("--frames 1 --set title=old --overwrite");
+    CHECK(old.code == 0);
+    CHECK(old.err.find("warning: the states in " + scene.states + " are of version 0.0.") == 0);
+    CHECK(scene.json("out/run.json")["drawn_from"]["version"].get<std::string>().find("0.0.") == 0);
     replaceIn(scene.folder / "states/manifest.json", "\"simulation_hash\":", "\"x\":");
     CHECK(draw("--frames 1").err.find("its states are of an earlier version") != std::string::npos);
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "render/output/atomic_file.h"
 #include "render/output/video.h"
 #include "render/picture/system_error.h"
 #include "scenes/text/input_error.h"
@@ -75,7 +76,8 @@ void writeJoined(const fs::path& folder, const JoinedFrames& joined) {
     const FolderLock lock(folder);
     if (!joined.chunks.empty()) writeFile(folder / "run.json", indentedText(joinedReport(joined)));
     writeFile(folder / manifestName(std::nullopt), encodeManifest(joined.manifest));
-    // Nobody holds these while the folder is locked.
+    // Nobody holds or writes these while the folder is locked.
+    render::removeAbandonedFiles(folder, isRunFile);
     for (const fs::path& file : filesIn(folder))
         if (isChunkLock(file)) fs::remove(file);
 }

@@ -124,6 +124,9 @@ void render(RenderOptions options) {
     std::optional<StateFolder> states;
     if (!options.states.empty()) states.emplace(options.states, scene, sceneIdentity(scene), job.frames);
     if (states) job.states = &*states;
+    if (states && states->version() != GLOBULAR_VERSION)
+        printWarning(fmt::format("the states in {} are of version {}; this version, {}, may simulate others",
+                                 options.states, states->version(), GLOBULAR_VERSION));
     checkOutputs(options, scene, job.states);
 
     // How the simulation starts is none of the concerns of a run that does not simulate.

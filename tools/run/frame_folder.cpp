@@ -72,7 +72,13 @@ FrameFolder::FrameFolder(const FolderOptions& options, FrameNames names, const F
     if (options.overwrite) removeFrames();
     manifest_.identity = identity;
     plan(options, frames);
-    render::removeAbandonedFiles(folder_, isRunFile);
+    // Not the files of other chunks: on some network file systems it cannot be seen that another machine writes them.
+    render::removeAbandonedFiles(folder_, [&](const std::string& name) {
+        if (!chunk_) return isRunFile(name);
+        const auto frame = kPictureNames.frameOf(name);
+        return frame ? frames.indexOf(*frame).has_value()
+                     : name == manifestName(chunk_) || name.starts_with(checkpointPrefix_);
+    });
     if (resumes_) keepIntactFrames();
     if (resumes_) keepFramesOfOthers(frames);
     writeManifest();

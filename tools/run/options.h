@@ -58,11 +58,11 @@ struct RendererChoice {
 /// `overwrite`, frames of the same run are written again, and frames of another run are an error.
 struct FolderOptions {
     std::string path;
-    bool resume = false;             ///< whether intact frames of the same run stay
-    bool overwrite = false;          ///< whether all files of an earlier run are removed from the folder first
-    double checkpointSeconds = 5.0;  ///< wall-clock time between two checkpoints, s
-    std::optional<Chunk> chunk;      ///< the part of the run that is to be made; nothing: all of it
-    std::string allFrames;           ///< the frames of all chunks, as --frames takes them; only for a chunk
+    bool resume = false;              ///< whether intact frames of the same run stay
+    bool overwrite = false;           ///< whether all files of an earlier run are removed from the folder first
+    double checkpointSeconds = 5.0;   ///< wall-clock time between two checkpoints, s
+    std::optional<Chunk> chunk = {};  ///< the part of the run that is to be made; nothing: all of it
+    std::string allFrames = {};       ///< the frames of all chunks, as --frames takes them; only for a chunk
 };
 
 /// How the frames of a scene are drawn, by render_loop.h or stills.h.

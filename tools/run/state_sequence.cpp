@@ -1,4 +1,5 @@
-// No checkpoints are needed: the states are all there.
+// No checkpoints are needed: the states are all there. A state that cannot be read ends the run after the frames before
+// it.
 #include "tools/run/state_sequence.h"
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@ StateSequence::StateSequence(const scenes::Scene& scene, FrameList frames, const
     : FrameSource(folder, progress), scene_(scene), frames_(std::move(frames)), states_(states) {}
 
 std::optional<SequencedFrame> StateSequence::next() {
-    if (next_ == frames_.numbers.size()) return std::nullopt;
+    if (failure_ || next_ == frames_.numbers.size()) return std::nullopt;
     if (interrupts_) run_.report.interruptedBy = interrupts_->signal();
     if (run_.report.interruptedBy != 0 || mustStop()) return std::nullopt;
     SequencedFrame frame;
@@ -23,9 +24,13 @@ std::optional<SequencedFrame> StateSequence::next() {
     frame.time = scenes::frameTime(scene_, frame.number);
     frame.isKept = folder_ != nullptr && folder_->isKept(frame.number);
     frame.stateHash = run_.report.stateHash = states_.stateHash(frame.number);
-    if (!frame.isKept)
-        withMemoryFor([&] { return fmt::format("reading {}", states_.pathOf(frame.number).string()); },
-                      "draw on a machine with more memory", [&] { read(frame); });
+    try {
+        if (!frame.isKept) read(frame);
+    } catch (...) {
+        // Thrown by finish(), because earlier frames are still being drawn.
+        failure_ = std::current_exception();
+        return std::nullopt;
+    }
     return frame;
 }
 
@@ -33,12 +38,15 @@ std::optional<SequencedFrame> StateSequence::next() {
 void StateSequence::read(const SequencedFrame& frame) {
     const Stopwatch watch(run_.report.seconds.reading);
     const Progress::Work work(progress_, fmt::format("reading the state of frame {}", frame.number));
-    run_.simulation.particles = states_.read(frame.number);
+    run_.simulation.particles =
+        withMemoryFor([&] { return fmt::format("reading {}", states_.pathOf(frame.number).string()); },
+                      "draw on a machine with more memory", [&] { return states_.read(frame.number); });
     run_.simulation.time = frame.time;
     run_.report.largestCount = std::max(run_.report.largestCount, run_.simulation.particles.count());
 }
 
 void StateSequence::finish() {
+    if (failure_) std::rethrow_exception(failure_);
     recordStop();
 }
 

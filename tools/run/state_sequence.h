@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <exception>
 #include <optional>
 
 #include "scenes/model/scene.h"
@@ -18,8 +19,9 @@ class StateSequence : public FrameSource {
     StateSequence(const scenes::Scene& scene, FrameList frames, const StateFolder& states, FrameFolder* folder,
                   Progress& progress);
 
-    /// @throws render::SystemError if a state cannot be read or is damaged
+    /// Also returns nothing when a state cannot be read or is damaged.
     std::optional<SequencedFrame> next() override;
+    /// @throws render::SystemError if a state could not be read or is damaged
     void finish() override;
     FinishedRun take() override;
 
@@ -29,7 +31,8 @@ class StateSequence : public FrameSource {
     const scenes::Scene& scene_;
     FrameList frames_;
     const StateFolder& states_;
-    std::size_t next_ = 0;  ///< position in the list of frames
+    std::size_t next_ = 0;        ///< position in the list of frames
+    std::exception_ptr failure_;  ///< why a state could not be read
 };
 
 }  // namespace tools
