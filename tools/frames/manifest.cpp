@@ -53,6 +53,8 @@ Manifest parsed(const Json& json) {
     if (json.contains("planned"))
         manifest.planned = {frameNumber(json.at("planned").at(0)), frameNumber(json.at("planned").at(1))};
     manifest.asked = json.value("asked", "");
+    if (manifest.asked.find_first_not_of("0123456789,-:") != std::string::npos)
+        throw render::SystemError("\"asked\" is not a list of frames");
     if (json.contains("chunk")) manifest.chunk = chunkRecord(json.at("chunk"));
     for (const auto& [number, frame] : json.at("frames").items())
         manifest.frames[frameNumber(number)] = {frame.at("checksum").get<std::string>(),
