@@ -1,4 +1,5 @@
 // Makes the particles that exist from the start, from the [[body]] tables of a scene.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -7,7 +8,7 @@
 #include "engine/state/bodies.h"
 #include "scenes/build/builders.h"
 #include "scenes/build/columns.h"
-#include "scenes/model/particle_file.h"
+#include "scenes/particles/particle_file.h"
 #include "scenes/text/read_file.h"
 
 namespace scenes {
@@ -101,8 +102,24 @@ void appendPoints(const Body& body, engine::Particles& particles) {
     }
 }
 
-/// Appends one particle of a PLY file. Where radius, mass or material of a particle are given more than once, the keys
-/// of the [[body]] take precedence over the file, and the file over the material.
+/// Gives the particles of a file the materials that its species are called like, if every species is called like one.
+/// Otherwise the species count as skipped: they may be the elements of a chemist's file.
+void findMaterials(const Body& body, ParticleFile& file) {
+    if (file.hasMaterial || file.species.empty()) return;
+    std::vector<std::uint32_t> materials;
+    for (const std::string& name : file.speciesNames) {
+        const auto found = std::ranges::find(body.materials.list, name, &engine::Material::name);
+        if (found == body.materials.list.end())
+            return file.skipped.push_back(fmt::format("species (no material is called \"{}\")", name.substr(0, 40)));
+        materials.push_back(static_cast<std::uint32_t>(found - body.materials.list.begin()));
+    }
+    for (std::size_t index = 0; index < file.species.size(); ++index)
+        file.particles.material[index] = materials[file.species[index]];
+    file.hasMaterial = true;
+}
+
+/// Appends one particle of a file. Where radius, mass or material of a particle are given more than once, the keys of
+/// the [[body]] take precedence over the file, and the file over the material.
 void appendFileParticle(const Body& body, const ParticleFile& file, std::size_t index, engine::Particles& particles) {
     const Section& section = body.section;
     const bool usesFileMaterial = file.hasMaterial && !section.has("material");
@@ -127,7 +144,8 @@ void appendFile(const Body& body, BuildContext& context, engine::Particles& part
     try {
         const std::vector<std::uint8_t> bytes = readFile(path, kMaxParticleFileBytes);
         context.contentHash = engine::fnv1a(asText(bytes), context.contentHash);
-        const ParticleFile file = decodeParticles(asText(bytes), path);
+        ParticleFile file = decodeParticles(asText(bytes), path);
+        if (!section.has("material")) findMaterials(body, file);
         if (!file.skipped.empty())
             context.warnings.add(section.position("file"),
                                  fmt::format("{}: not read: {}", path, fmt::join(file.skipped, ", ")));

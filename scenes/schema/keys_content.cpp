@@ -42,7 +42,10 @@ std::vector<Key> bodyKeys() {
             .derivedAs("at rest")
             .within(kWithinWorld)
             .onlyFor({"points"}),
-        key("file", Type::string, "", "PLY file as `globular simulate` writes it, relative to the scene file")
+        key("file", Type::string, "",
+            "file of particles, relative to the scene file: PLY, VTP, extended XYZ or a LAMMPS dump, as `globular "
+            "simulate` "
+            "and other programs write them; its content tells which")
             .required()
             .onlyFor({"file"}),
         length("particle_radius",

@@ -93,6 +93,16 @@ double linearFromSrgb(double component) {
     return component <= 0.04045 ? component / 12.92 : std::pow((component + 0.055) / 1.055, 2.4);
 }
 
+std::array<std::uint8_t, 3> srgbBytes(const Vec3& linear) {
+    std::array<std::uint8_t, 3> bytes{};
+    for (std::size_t index = 0; index < 3; ++index) {
+        const double light = std::clamp(linear[static_cast<int>(index)], 0.0, 1.0);
+        const double component = light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1.0 / 2.4) - 0.055;
+        bytes[index] = static_cast<std::uint8_t>(std::lround(255.0 * component));
+    }
+    return bytes;
+}
+
 std::optional<Vec3> colorFromHex(std::string_view text) {
     if (text.size() != 7 || text[0] != '#') return std::nullopt;
     unsigned code = 0;

@@ -2,6 +2,8 @@
 // here is linear RGB, which is what the rest of the program computes with.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -12,6 +14,9 @@ namespace scenes {
 
 /// Converts an sRGB component to linear light, both in [0,1], by the piecewise curve of IEC 61966-2-1.
 double linearFromSrgb(double component);
+
+/// A linear color as sRGB, 0 to 255 for each component.
+std::array<std::uint8_t, 3> srgbBytes(const engine::Vec3& linear);
 
 /// Converts "#rrggbb" to linear RGB; returns nothing for any other text.
 std::optional<engine::Vec3> colorFromHex(std::string_view text);

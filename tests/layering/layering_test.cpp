@@ -52,7 +52,7 @@ const std::map<std::string, std::vector<std::string>> kRooms = {
      {"render", "render/opengl", "render/opengl/context", "render/cpu", "render/cpu/shading", "render/cpu/lighting",
       "render/cpu/metaballs", "render/cpu/raster", "render/prepare", "render/overlay", "render/output",
       "render/compare", "render/picture"}},
-    {"scenes", {"scenes/view", "scenes/build", "scenes/schema", "scenes/model", "scenes/text"}},
+    {"scenes", {"scenes/view", "scenes/build", "scenes/schema", "scenes/model", "scenes/particles", "scenes/text"}},
     {"studies",
      {"studies/accuracy", "studies/stability", "studies/scaling", "studies/bench", "studies/pictures", "studies/oracle",
       "studies/common"}},

@@ -6,7 +6,7 @@
 #include "engine/state/bodies.h"
 #include "engine/state/emitter_sites.h"
 #include "engine/state/emitters.h"
-#include "scenes/model/particle_file.h"
+#include "scenes/particles/particle_file.h"
 #include "scenes/text/color.h"
 #include "tests/scenes/scene_text.h"
 
@@ -171,7 +171,9 @@ TEST_CASE("problems of a particle file are reported at the key that names it") {
     const std::string ply = (folder.path / "none.ply").string();
     CHECK(problem() == scenePath + ":5:8: " + ply + ": cannot be read: No such file or directory");
     folder.write("none.ply", "nonsense");
-    CHECK(problem() == scenePath + ":5:8: " + ply + ": is not a PLY file");
+    CHECK(problem() ==
+          scenePath + ":5:8: " + ply +
+              ": is no particle file: neither PLY nor VTK PolyData (.vtp), extended XYZ or a LAMMPS dump as text");
     engine::Particles state;
     append(state, {.material = 1});
     folder.write("none.ply", scenes::encodeParticles(state));
@@ -187,11 +189,32 @@ TEST_CASE("what is not read of a particle file is a warning at the key that name
     const std::string header = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n";
     folder.write("points.ply", header + "property float z\nend_header\n1 2 3\n");
     CHECK(scenes::loadScene(scenePath, {}).warnings.empty());
-    folder.write("points.ply", header + "property float z\nproperty uchar red\nelement face 0\nend_header\n1 2 3 4\n");
+    folder.write(
+        "points.ply",
+        header + "property float z\nproperty uchar red\nelement face 1\nproperty uchar a\nend_header\n1 2 3 4 5\n");
     const scenes::Scene scene = scenes::loadScene(scenePath, {});
     CHECK(scene.setup.initial.position == std::vector<Vec3>{Vec3(1, 2, 3)});
     CHECK(scene.warnings == std::vector<std::string>{scenePath + ":5:8: " + (folder.path / "points.ply").string() +
                                                      ": not read: red, element face"});
+}
+
+TEST_CASE("the species of a file are materials where all are called like one") {
+    const ScratchFolder folder;
+    const std::string body = "[[body]]\nshape = \"file\"\nfile = \"a.xyz\"\n";
+    const std::string materials = "[[material]]\nname = \"a\"\n[[material]]\nname = \"b\"\nradius = 0.5\n";
+    const std::string scenePath = folder.write("s.toml", kTop + materials + body);
+    folder.write("a.xyz", "3\n\nb 0 0 0\na 9 9 9\nb 5 5 5\n");
+    const scenes::Scene scene = scenes::loadScene(scenePath, {});
+    CHECK(scene.warnings.empty());
+    CHECK(scene.setup.initial.material == std::vector<std::uint32_t>{1, 0, 1});
+    CHECK(scene.setup.initial.radius.at(0) == 0.5);
+    CHECK(scenes::loadScene(scenePath, {"body[0].material=a"}).setup.initial.material ==
+          std::vector<std::uint32_t>{0, 0, 0});
+    folder.write("a.xyz", "2\n\nb 0 0 0\nHe 9 9 9\n");
+    const scenes::Scene other = scenes::loadScene(scenePath, {});
+    CHECK(other.setup.initial.material == std::vector<std::uint32_t>{0, 0});
+    REQUIRE(other.warnings.size() == 1);
+    CHECK(other.warnings[0].find("not read: species (no material is called \"He\")") != std::string::npos);
 }
 
 TEST_CASE("emitters have an interval for each schedule") {

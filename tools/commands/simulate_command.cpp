@@ -1,17 +1,21 @@
-// globular simulate: simulates a scene without drawing it, and writes the particles of each frame as a PLY file.
+// globular simulate: simulates a scene without drawing it, and writes the particles of each frame to a file for each
+// format that is asked for.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string_view>
 
 #include "render/output/atomic_file.h"
-#include "scenes/model/particle_file.h"
+#include "scenes/particles/formats.h"
+#include "scenes/particles/vtp.h"
 #include "tools/commands/commands.h"
 #include "tools/run/frame_sequence.h"
 #include "tools/run/run_warnings.h"
 #include "tools/run/threads.h"
 #include "tools/system/command_files.h"
+#include "tools/system/memory.h"
 
 namespace tools {
 namespace {
@@ -24,25 +28,85 @@ struct SimulateOptions {
     FolderOptions folder;
     std::string frames;
     bool estimatesErrors = true;
-    std::string format = "ply";
+    std::vector<std::string> formats = {"ply"};
+};
+
+/// The formats that are asked for, each once.
+std::vector<const scenes::ParticleFormat*> formatsOf(const SimulateOptions& options) {
+    std::vector<const scenes::ParticleFormat*> formats;
+    for (const scenes::ParticleFormat& format : scenes::particleFormats())
+        if (std::ranges::find(options.formats, format.name) != options.formats.end()) formats.push_back(&format);
+    return formats;
+}
+
+scenes::ParticleFrame particleFrame(const scenes::Scene& scene, const engine::Simulation& simulation,
+                                    const SequencedFrame& frame) {
+    scenes::ParticleFrame result{
+        simulation.particles, {frame.number, frame.time, scene.simulationHash}, {}, scene.materialColors};
+    for (const engine::Material& material : scene.setup.materials) result.materialNames.push_back(material.name);
+    return result;
+}
+
+/// The index of the frames in VTK's format, with their times.
+FrameIndex vtpSeries(const scenes::Scene& scene, const FrameNames& names) {
+    return {names, kVtpSeriesName, [&scene, names](const std::vector<int>& frames) {
+                std::vector<scenes::TimedFile> files;
+                for (const int frame : frames)
+                    files.push_back({names.fileName(frame), scenes::frameTime(scene, frame)});
+                return scenes::encodeVtpSeries(files);
+            }};
+}
+
+/// Writes the frames of a scene into a folder, in some formats.
+class StateWriter {
+ public:
+    StateWriter(const scenes::Scene& scene, const FrameList& frames, const SimulateOptions& options)
+        : scene_(scene), formats_(formatsOf(options)), folder_(options.folder, names(), frames, sceneIdentity(scene)) {
+        for (const scenes::ParticleFormat* format : formats_)
+            if (format->name == "vtp") folder_.keepIndex(vtpSeries(scene, stateNames(*format)));
+    }
+
+    FrameFolder& folder() { return folder_; }
+
+    /// Writes those files of a frame that are not kept.
+    void write(const SequencedFrame& frame, const engine::Simulation& simulation) {
+        if (!frame.isWanted || frame.isKept) return;
+        const scenes::ParticleFrame particles = particleFrame(scene_, simulation, frame);
+        for (const scenes::ParticleFormat* format : formats_) {
+            const FrameNames names = stateNames(*format);
+            if (folder_.isKept(frame.number, names)) continue;
+            const std::string bytes =
+                withMemoryForParticles(simulation.particles.count(), [&] { return format->encode(particles); });
+            folder_.write(frame.number, names, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()},
+                          frame.stateHash);
+        }
+    }
+
+ private:
+    std::vector<FrameNames> names() const {
+        std::vector<FrameNames> all;
+        for (const scenes::ParticleFormat* format : formats_) all.push_back(stateNames(*format));
+        return all;
+    }
+
+    const scenes::Scene& scene_;
+    std::vector<const scenes::ParticleFormat*> formats_;
+    FrameFolder folder_;
 };
 
 FinishedRun simulateFrames(const scenes::Scene& scene, const FrameList& frames, const SimulateOptions& options,
                            const std::string& title) {
     Progress progress(title, frames.count(), options.run.verbosity());
-    FrameFolder folder(options.folder, kStateNames, frames, sceneIdentity(scene));
-    FrameSequence sequence(scene, frames, {&folder, options.estimatesErrors}, progress);
+    StateWriter states(scene, frames, options);
+    FrameSequence sequence(scene, frames, {&states.folder(), options.estimatesErrors}, progress);
     RunReport& report = sequence.report();
     report.threads = threadCount(options.run);
     {
         const Stopwatch total(report.seconds.all);
         while (const auto frame = sequence.next()) {
-            std::string ply;
             const Stopwatch watch(report.seconds.encoding);
-            if (frame->isWanted && !frame->isKept)
-                ply = scenes::encodeParticles(sequence.simulation().particles,
-                                              scenes::StateStamp{frame->number, frame->time, scene.simulationHash});
-            sequence.store(*frame, {reinterpret_cast<const std::uint8_t*>(ply.data()), ply.size()});
+            states.write(*frame, sequence.simulation());
+            sequence.storeCheckpoint(*frame);
             if (!frame->isWanted) continue;
             ++report.frames;
             progress.frameDone(frame->number, frame->time);
@@ -50,6 +114,21 @@ FinishedRun simulateFrames(const scenes::Scene& scene, const FrameList& frames, 
         sequence.finish();
     }
     return sequence.take();
+}
+
+/// Adds the flag for the formats, whose help names them all.
+void addFormats(CLI::App& command, std::vector<std::string>& formats) {
+    std::vector<std::string> names;
+    std::string help = "what to write, one file a frame of each, separated by commas (default: ply)";
+    for (const scenes::ParticleFormat& format : scenes::particleFormats()) {
+        names.emplace_back(format.name);
+        help += fmt::format("; {}: {}", format.name, format.help);
+    }
+    command.add_option("--format", formats, help)
+        ->type_name("FORMATS")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(CLI::IsMember(names));
 }
 
 void simulate(SimulateOptions options) {
@@ -76,16 +155,18 @@ void simulate(SimulateOptions options) {
 }  // namespace
 
 void addSimulateCommand(CLI::App& program) {
-    CLI::App& command = *program.add_subcommand("simulate", "particle states only: one PLY file a frame, and run.json");
+    CLI::App& command = *program.add_subcommand(
+        "simulate", "particle states only: a file a frame, for other programs and scenes, and run.json");
     const auto options = std::make_shared<SimulateOptions>();
     addTo(command, options->scene);
     addStrictFlag(command, options->scene);
     addTo(command, options->folder, "folder for frames and run.json (default: out/NAME-states)");
-    command.add_option("--format", options->format, "ply: binary little-endian PLY")->check(CLI::IsMember({"ply"}));
+    addFormats(command, options->formats);
     command.add_option("--frames", options->frames, std::string("write only ") + kFrameListHelp)->type_name("FRAMES");
     addErrorFlag(command, options->estimatesErrors);
     addTo(command, options->run);
-    command.footer(std::string(kErrorSampleNotes) + "Example: globular simulate powder -o out/states --frames 0-59");
+    command.footer(std::string(kErrorSampleNotes) +
+                   "Example: globular simulate powder -o out/states --frames 0-59 --format ply,vtp");
     command.callback([options] { simulate(*options); });
 }
 

@@ -57,9 +57,22 @@ bool isManifestName(const fs::path& file) {
     return takeChunkName(rest) ? rest == kChunkManifestExtension : rest == kManifestName;
 }
 
+FrameNames stateNames(const scenes::ParticleFormat& format) {
+    const bool isDefault = &format == scenes::particleFormats().data();
+    return {format.prefix, format.extension, isDefault ? std::string_view() : format.name};
+}
+
+std::vector<FrameNames> allFrameNames() {
+    std::vector<FrameNames> all = {kPictureNames};
+    for (const scenes::ParticleFormat& format : scenes::particleFormats()) all.push_back(stateNames(format));
+    return all;
+}
+
 bool isRunFile(const fs::path& file) {
-    return kPictureNames.frameOf(file) || kStateNames.frameOf(file) || isCheckpointName(file) || isManifestName(file) ||
-           file.filename() == "run.json";
+    const std::vector<FrameNames> names = allFrameNames();
+    return std::ranges::any_of(names, [&](const FrameNames& each) { return each.frameOf(file).has_value(); }) ||
+           isCheckpointName(file) || isManifestName(file) || file.filename() == "run.json" ||
+           file.filename() == kVtpSeriesName;
 }
 
 std::vector<fs::path> filesIn(const fs::path& folder) {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scenes/particles/formats.h"
 #include "tools/frames/chunk.h"
 
 namespace tools {
@@ -15,6 +16,7 @@ namespace tools {
 struct FrameNames {
     std::string_view prefix;
     std::string_view extension;
+    std::string_view format = "";  ///< what the manifest calls them; empty for pictures and for the default of states
 
     /// The name of a frame's file, such as "frame-00042.png".
     std::string fileName(int frame) const;
@@ -23,6 +25,15 @@ struct FrameNames {
 };
 inline constexpr FrameNames kPictureNames = {"frame-", ".png"};
 inline constexpr FrameNames kStateNames = {"particles-", ".ply"};
+
+/// How particle states in a format are named.
+FrameNames stateNames(const scenes::ParticleFormat& format);
+
+/// How all files are named that show a frame: pictures, and states in every format.
+std::vector<FrameNames> allFrameNames();
+
+/// The file that lists the .vtp files of a folder, for ParaView.
+inline constexpr const char* kVtpSeriesName = "particles.vtp.series";
 
 /// Extension of checkpoints, which are numbered by frame.
 inline constexpr std::string_view kCheckpointExtension = ".state";
@@ -39,7 +50,8 @@ std::string manifestName(const std::optional<Chunk>& chunk);
 /// Whether a file has the name of a manifest, of a run of all frames or of any chunk.
 bool isManifestName(const std::filesystem::path& file);
 
-/// Whether a run may write a file of this name into its folder: a frame, a checkpoint, a manifest or run.json.
+/// Whether a run may write a file of this name into its folder: a frame, a checkpoint, a manifest,
+/// run.json or the series of .vtp files.
 bool isRunFile(const std::filesystem::path& file);
 
 /// The files in a folder, in no order.

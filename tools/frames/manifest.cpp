@@ -35,6 +35,23 @@ int frameNumber(const Json& json) {
     return json.get<int>();
 }
 
+std::map<int, FrameRecord> framesOf(const Json& json) {
+    std::map<int, FrameRecord> frames;
+    for (const auto& [number, frame] : json.items())
+        frames[frameNumber(number)] = {frame.at("checksum").get<std::string>(),
+                                       frame.at("state_hash").get<std::string>()};
+    return frames;
+}
+
+/// A JSON object of frames, a line for each. Building a JSON tree of all of them would take many times the memory.
+std::string textOf(const std::map<int, FrameRecord>& frames) {
+    std::string text;
+    for (const auto& [number, frame] : frames)
+        text += fmt::format("{}\n  \"{:05}\": {}", text.empty() ? "" : ",", number,
+                            compactText({{"checksum", frame.checksum}, {"state_hash", frame.stateHash}}));
+    return "{" + text + "\n }";
+}
+
 ChunkRecord chunkRecord(const Json& json) {
     ChunkRecord chunk{json.at("machines"), json.at("report")};
     if (!chunk.machines.is_array()) throw render::SystemError("\"machines\" is not a list");
@@ -56,9 +73,11 @@ Manifest parsed(const Json& json) {
     if (manifest.asked.find_first_not_of("0123456789,-:") != std::string::npos)
         throw render::SystemError("\"asked\" is not a list of frames");
     if (json.contains("chunk")) manifest.chunk = chunkRecord(json.at("chunk"));
-    for (const auto& [number, frame] : json.at("frames").items())
-        manifest.frames[frameNumber(number)] = {frame.at("checksum").get<std::string>(),
-                                                frame.at("state_hash").get<std::string>()};
+    manifest.hasFrames = json.contains("frames");
+    if (manifest.hasFrames) manifest.frames = framesOf(json.at("frames"));
+    if (json.contains("formats"))
+        for (const auto& [format, frames] : json.at("formats").items())
+            manifest.otherFormats[format] = framesOf(frames);
     for (const Json& checkpoint : json.at("checkpoints")) {
         if (!checkpoint.at("report").is_object()) throw render::SystemError("a checkpoint's report is not an object");
         manifest.checkpoints[frameNumber(checkpoint.at("frame"))] = {checkpoint.at("checksum").get<std::string>(),
@@ -81,11 +100,6 @@ std::string encodeManifest(const Manifest& manifest) {
     Json checkpoints = Json::array();
     for (const auto& [frame, checkpoint] : manifest.checkpoints)
         checkpoints.push_back({{"frame", frame}, {"checksum", checkpoint.checksum}, {"report", checkpoint.report}});
-    // Frames are appended line by line. Building a JSON tree of all of them would take many times the memory.
-    std::string frames;
-    for (const auto& [number, frame] : manifest.frames)
-        frames += fmt::format("{}\n  \"{:05}\": {}", frames.empty() ? "" : ",", number,
-                              compactText({{"checksum", frame.checksum}, {"state_hash", frame.stateHash}}));
     const std::string planned =
         manifest.planned ? fmt::format(" \"planned\": [{}, {}],\n", manifest.planned->first, manifest.planned->second)
                          : "";
@@ -95,9 +109,27 @@ std::string encodeManifest(const Manifest& manifest) {
             ? fmt::format(" \"chunk\": {},\n",
                           compactText({{"machines", manifest.chunk->machines}, {"report", manifest.chunk->report}}))
             : "";
-    return fmt::format("{}{},\n \"run\": {},\n{}{}{} \"checkpoints\": {},\n \"frames\": {{{}\n }}\n}}\n", kBeginning,
-                       kFormat, compactText(manifest.identity), planned, asked, chunk, compactText(checkpoints),
-                       frames);
+    std::string lists;
+    for (const auto& [format, frames] : manifest.otherFormats)
+        lists += fmt::format("{}\n {}: {}", lists.empty() ? "" : ",", compactText(format), textOf(frames));
+    const std::string formats = lists.empty() ? "" : fmt::format(",\n \"formats\": {{{}\n }}", lists);
+    const std::string frames = manifest.hasFrames ? ",\n \"frames\": " + textOf(manifest.frames) : "";
+    return fmt::format("{}{},\n \"run\": {},\n{}{}{} \"checkpoints\": {}{}{}\n}}\n", kBeginning, kFormat,
+                       compactText(manifest.identity), planned, asked, chunk, compactText(checkpoints), frames,
+                       formats);
+}
+
+std::map<int, FrameRecord>& Manifest::framesIn(std::string_view format) {
+    if (!format.empty()) return otherFormats[std::string(format)];
+    hasFrames = true;
+    return frames;
+}
+
+bool Manifest::lists(int frame, std::string_view format) const {
+    const auto other = otherFormats.find(format);
+    if (format.empty() ? !hasFrames : other == otherFormats.end()) return false;
+    const auto& written = format.empty() ? frames : other->second;
+    return written.count(frame) == 1 || (planned && planned->first <= frame && frame <= planned->second);
 }
 
 bool isManifest(std::span<const std::uint8_t> text) {

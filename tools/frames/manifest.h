@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "tools/system/json.h"
@@ -33,7 +35,13 @@ struct ChunkRecord {
 
 struct Manifest {
     Json identity;  ///< JSON object with everything that determines the bytes of the frames
+    /// The frames whose files have been written: pictures, or particle states in the default format.
     std::map<int, FrameRecord> frames;
+    /// Whether a run into this folder was asked for such files. If not, it may have files of theirs that are another's.
+    bool hasFrames = true;
+    /// The frames whose particle states have been written in other formats, by the name of the format. There is an
+    /// entry for every format that a run into this folder was asked for.
+    std::map<std::string, std::map<int, FrameRecord>, std::less<>> otherFormats;
     std::map<int, CheckpointRecord> checkpoints;  ///< checkpoints by the number of their frame
     /// The first and the last frame that a run into this folder was asked for. A run that was killed may have written
     /// some of them that `frames` does not have yet.
@@ -43,10 +51,12 @@ struct Manifest {
     std::string asked;
     std::optional<ChunkRecord> chunk;  ///< nothing for a run of all frames
 
-    /// Whether the file of this frame belongs to the runs of the manifest.
-    bool lists(int frame) const {
-        return frames.count(frame) == 1 || (planned && planned->first <= frame && frame <= planned->second);
-    }
+    /// The frames that have been written in a format, which counts as asked for from now on.
+    /// @param format  its name; empty for the default format and for pictures
+    std::map<int, FrameRecord>& framesIn(std::string_view format);
+
+    /// Whether the file of this frame and format belongs to the runs of the manifest.
+    bool lists(int frame, std::string_view format) const;
 };
 
 /// FNV-1a hash of the bytes as 16 hexadecimal digits.

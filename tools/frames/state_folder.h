@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "scenes/model/particle_file.h"
 #include "scenes/model/scene.h"
+#include "scenes/particles/particle_file.h"
 #include "tools/frames/frame_list.h"
 #include "tools/frames/manifest.h"
 #include "tools/system/json.h"

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 #include "engine/run/checkpoint.h"
 #include "render/output/atomic_file.h"
@@ -56,14 +57,16 @@ bool isRunReport(const fs::path& file) {
 
 }  // namespace
 
-FrameFolder::FrameFolder(const FolderOptions& options, FrameNames names, const FrameList& frames, const Json& identity)
+FrameFolder::FrameFolder(const FolderOptions& options, std::vector<FrameNames> names, const FrameList& frames,
+                         const Json& identity)
     : folder_(options.path),
       chunk_(options.chunk),
       lock_(folder_, options.chunk),
       checkpointPrefix_(checkpointPrefix(options.chunk)),
       resumes_(options.resume),
       checkpointSeconds_(options.checkpointSeconds),
-      names_(names) {
+      names_(std::move(names)) {
+    manifest_.hasFrames = false;
     // Files are listed before manifests are read: another chunk that starts meanwhile writes its manifest before any
     // frame.
     const std::vector<fs::path> files = filesIn(folder_);
@@ -79,7 +82,10 @@ FrameFolder::FrameFolder(const FolderOptions& options, FrameNames names, const F
         return frame ? frames.indexOf(*frame).has_value()
                      : name == manifestName(chunk_) || name.starts_with(checkpointPrefix_);
     });
-    if (resumes_) keepIntactFrames();
+    for (const FrameNames& each : names_) {
+        manifest_.framesIn(each.format);
+        if (resumes_) keepIntactFrames(each);
+    }
     if (resumes_) keepFramesOfOthers(frames);
     writeManifest();
 }
@@ -112,19 +118,25 @@ bool FrameFolder::readManifests(const std::vector<fs::path>& files, bool overwri
 /// Makes sure that every file whose name the run may use was written by a run into this folder.
 /// @param isDamaged  whether the manifests can no longer tell which frames were
 void FrameFolder::requireOwnFiles(const std::vector<fs::path>& files, bool isDamaged) const {
-    const auto lists = [](const Manifest& manifest, int frame, const fs::path& file) {
-        // A manifest of `render` lists pictures, one of `simulate` particle states.
-        const FrameNames& listed = manifest.identity.contains("size") ? kPictureNames : kStateNames;
-        return manifest.lists(frame) && listed.frameOf(file);
+    const std::vector<FrameNames> all = allFrameNames();
+    const auto anyManifest = [&](const auto& holds) { return holds(manifest_) || std::ranges::any_of(others_, holds); };
+    const auto isListed = [&](const FrameNames& names, const fs::path& file) {
+        return anyManifest([&](const Manifest& manifest) {
+            // A manifest of `render` lists pictures, one of `simulate` particle states.
+            const FrameNames& listed = manifest.identity.contains("size") ? kPictureNames : kStateNames;
+            return manifest.lists(*names.frameOf(file), names.format) &&
+                   (!names.format.empty() || listed.frameOf(file));
+        });
     };
+    const auto hasSeries = [](const Manifest& manifest) { return manifest.otherFormats.contains("vtp"); };
     for (const fs::path& file : files) {
-        std::optional<int> frame = kPictureNames.frameOf(file);
-        if (!frame) frame = kStateNames.frameOf(file);
-        const auto listsIt = [&](const Manifest& manifest) { return lists(manifest, *frame, file); };
-        const bool isOwn = frame ? isDamaged || listsIt(manifest_) || std::ranges::any_of(others_, listsIt)
-                           : isCheckpointName(file)        ? isCheckpoint(file)
-                           : file.filename() == "run.json" ? isRunReport(file)
-                                                           : true;
+        const auto names =
+            std::ranges::find_if(all, [&](const FrameNames& each) { return each.frameOf(file).has_value(); });
+        const bool isOwn = names != all.end()                  ? isDamaged || isListed(*names, file)
+                           : isCheckpointName(file)            ? isCheckpoint(file)
+                           : file.filename() == "run.json"     ? isRunReport(file)
+                           : file.filename() == kVtpSeriesName ? isDamaged || anyManifest(hasSeries)
+                                                               : true;
         if (!isOwn) failForeign(file);
     }
 }
@@ -137,6 +149,7 @@ void FrameFolder::removeFrames() {
     for (const fs::path& file : files)
         if (isManifestName(file) && file.filename() != manifestName(chunk_)) removeFile(file);
     manifest_ = {};
+    manifest_.hasFrames = false;
     others_.clear();
 }
 
@@ -165,17 +178,28 @@ FrameFolder::~FrameFolder() {
     }
 }
 
-void FrameFolder::keepIntactFrames() {
-    for (const auto& [frame, record] : manifest_.frames) {
-        const fs::path path = pathOf(frame);
+void FrameFolder::keepIntactFrames(const FrameNames& names) {
+    std::map<int, FrameRecord> intact;
+    for (const auto& [frame, record] : manifest_.framesIn(names.format)) {
+        const fs::path path = folder_ / names.fileName(frame);
         if (!fs::exists(path))
             printWarning(fmt::format("{} is missing: it does not count as done", path.string()));
         else if (checksumOf(readFile(path)) != record.checksum)
             printWarning(fmt::format("{} is damaged: it does not count as done", path.string()));
         else
-            kept_[frame] = record;
+            intact[frame] = record;
     }
-    manifest_.frames = kept_;
+    for (const auto& [frame, record] : intact) kept_[names.format].insert(frame);
+    manifest_.framesIn(names.format) = std::move(intact);
+}
+
+bool FrameFolder::isKept(int frame, const FrameNames& names) const {
+    const auto kept = kept_.find(names.format);
+    return kept != kept_.end() && kept->second.contains(frame);
+}
+
+bool FrameFolder::isKept(int frame) const {
+    return std::ranges::all_of(names_, [&](const FrameNames& names) { return isKept(frame, names); });
 }
 
 /// Keeps those of the frames that other chunks have made. A chunk does not take them into its own manifest, which says
@@ -186,13 +210,13 @@ void FrameFolder::keepFramesOfOthers(const FrameList& frames) {
             const auto record = other.frames.find(frame);
             if (isKept(frame) || record == other.frames.end() || !fs::exists(pathOf(frame))) continue;
             if (checksumOf(readFile(pathOf(frame))) != record->second.checksum) continue;
-            kept_[frame] = record->second;
+            kept_[names_.front().format].insert(frame);
             if (!chunk_) manifest_.frames[frame] = record->second;
         }
 }
 
 fs::path FrameFolder::pathOf(int frame) const {
-    return folder_ / names_.fileName(frame);
+    return folder_ / names_.front().fileName(frame);
 }
 
 std::optional<RestartPoint> FrameFolder::restartPoint(const engine::Setup& setup, int latest) const {
@@ -213,9 +237,10 @@ std::optional<RestartPoint> FrameFolder::restartPoint(const engine::Setup& setup
     return std::nullopt;
 }
 
-void FrameFolder::write(int frame, std::span<const std::uint8_t> bytes, const std::string& stateHash) {
-    writeFile(pathOf(frame), bytes);
-    manifest_.frames[frame] = {checksumOf(bytes), stateHash};
+void FrameFolder::write(int frame, const FrameNames& names, std::span<const std::uint8_t> bytes,
+                        const std::string& stateHash) {
+    writeFile(folder_ / names.fileName(frame), bytes);
+    manifest_.framesIn(names.format)[frame] = {checksumOf(bytes), stateHash};
     isManifestCurrent_ = false;
     if (std::chrono::steady_clock::now() - lastManifest_ > kManifestInterval) writeManifest();
 }
@@ -242,8 +267,21 @@ void FrameFolder::writeReport(const Json& json) {
 
 void FrameFolder::writeManifest() {
     writeFile(folder_ / manifestName(chunk_), encodeManifest(manifest_));
+    if (index_) writeIndex();
     isManifestCurrent_ = true;
     lastManifest_ = std::chrono::steady_clock::now();
+}
+
+void FrameFolder::keepIndex(FrameIndex index) {
+    index_ = std::move(index);
+    writeIndex();
+}
+
+void FrameFolder::writeIndex() const {
+    std::vector<int> frames;
+    for (const auto& [frame, record] : manifest_.otherFormats.at(std::string(index_->names.format)))
+        if (fs::exists(folder_ / index_->names.fileName(frame))) frames.push_back(frame);
+    writeFile(folder_ / index_->fileName, index_->encode(frames));
 }
 
 }  // namespace tools

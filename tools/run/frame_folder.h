@@ -1,14 +1,17 @@
-// The folder that a run writes its frames into: one file for each frame, a manifest, and the last two checkpoints. That
-// is all that is needed to resume the run, however it ended. The chunks of a run share a folder: their frames have the
-// names that they have in a run of all frames, and each chunk has a manifest and checkpoints of its own. Used by
-// `render` and `simulate`.
+// The folder that a run writes its frames into: a file for each frame and format, a manifest, and the last two
+// checkpoints. That is all that is needed to resume the run, however it ended. The chunks of a run share a folder:
+// their frames have the names that they have in a run of all frames, and each chunk has a manifest and checkpoints of
+// its own. Used by `render` and `simulate`.
 #pragma once
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/run/advance.h"
@@ -21,6 +24,13 @@
 
 namespace tools {
 
+/// A file that lists the frames of a format, for programs that want such a list.
+struct FrameIndex {
+    FrameNames names;  ///< of the frames that it lists, in another format than the default
+    std::string fileName;
+    std::function<std::string(const std::vector<int>& frames)> encode;
+};
+
 /// A state to resume from, as read from a checkpoint.
 struct RestartPoint {
     int frame = 0;
@@ -32,21 +42,27 @@ struct RestartPoint {
 class FrameFolder {
  public:
     /// Locks the folder and examines its files; damaged ones are reported as warnings on standard error.
+    /// @param names  of the files of each frame, one for each format
     /// @param frames  the frames that the run is asked for
     /// @param identity  an object with everything that determines the bytes of the frames
     /// @throws render::SystemError if another run is writing into the folder, or if the folder holds frames of another
     /// run that are not to be overwritten
     /// @throws scenes::InputError if a file of another origin has a name that the run may use, with `overwrite` or not
-    FrameFolder(const FolderOptions& options, FrameNames names, const FrameList& frames, const Json& identity);
+    FrameFolder(const FolderOptions& options, std::vector<FrameNames> names, const FrameList& frames,
+                const Json& identity);
     /// Writes the manifest if frames are missing from it.
     ~FrameFolder();
     FrameFolder(const FrameFolder&) = delete;
     FrameFolder& operator=(const FrameFolder&) = delete;
 
-    /// Whether the frame's file was there and intact when the folder was opened, whoever had made it, so that it need
-    /// not be made again.
-    bool isKept(int frame) const { return kept_.count(frame) == 1; }
+    /// Whether the frame's file of this format was there and intact when the folder was opened, whoever had made it, so
+    /// that it need not be made again.
+    bool isKept(int frame, const FrameNames& names) const;
 
+    /// Whether all files of the frame are kept.
+    bool isKept(int frame) const;
+
+    /// The frame's file of the first format.
     std::filesystem::path pathOf(int frame) const;
 
     /// Wall-clock time between two checkpoints, s.
@@ -55,8 +71,16 @@ class FrameFolder {
     /// The newest usable checkpoint of a frame up to `latest`; nothing if there is none or the run does not resume.
     std::optional<RestartPoint> restartPoint(const engine::Setup& setup, int latest) const;
 
-    /// Writes the file of a frame.
-    void write(int frame, std::span<const std::uint8_t> bytes, const std::string& stateHash);
+    /// Writes the file of a frame in the first format.
+    void write(int frame, std::span<const std::uint8_t> bytes, const std::string& stateHash) {
+        write(frame, names_.front(), bytes, stateHash);
+    }
+
+    /// Writes the file of a frame in one of the formats.
+    void write(int frame, const FrameNames& names, std::span<const std::uint8_t> bytes, const std::string& stateHash);
+
+    /// Writes an index of the frames that are there, and again whenever the manifest is written.
+    void keepIndex(FrameIndex index);
 
     /// Writes a checkpoint of a frame. The last two up to this frame are kept, and the newest of all.
     /// @param bytes  engine::encodeCheckpoint()
@@ -72,10 +96,11 @@ class FrameFolder {
     void requireOwnFiles(const std::vector<std::filesystem::path>& files, bool isDamaged) const;
     void removeFrames();
     void plan(const FolderOptions& options, const FrameList& frames);
-    void keepIntactFrames();
+    void keepIntactFrames(const FrameNames& names);
     void keepFramesOfOthers(const FrameList& frames);
     FrameNames checkpointNames() const { return {checkpointPrefix_, kCheckpointExtension}; }
     void writeManifest();
+    void writeIndex() const;
 
     std::filesystem::path folder_;
     std::optional<Chunk> chunk_;
@@ -83,10 +108,11 @@ class FrameFolder {
     std::string checkpointPrefix_;
     bool resumes_ = false;
     double checkpointSeconds_ = 0.0;
-    FrameNames names_;
+    std::vector<FrameNames> names_;
     Manifest manifest_;
     std::vector<Manifest> others_;  ///< manifests of other chunks, or of a run of all frames, in the same folder
-    std::map<int, FrameRecord> kept_;
+    std::map<std::string_view, std::set<int>> kept_;  ///< by format
+    std::optional<FrameIndex> index_;
     bool isManifestCurrent_ = true;  ///< whether the manifest on disk lists every frame
     std::chrono::steady_clock::time_point lastManifest_;
 };

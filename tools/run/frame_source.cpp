@@ -27,6 +27,10 @@ FrameSource::FrameSource(FrameFolder* folder, Progress& progress) : folder_(fold
 
 void FrameSource::store(const SequencedFrame& frame, std::span<const std::uint8_t> bytes) {
     if (frame.isWanted && !frame.isKept) folder_->write(frame.number, bytes, frame.stateHash);
+    storeCheckpoint(frame);
+}
+
+void FrameSource::storeCheckpoint(const SequencedFrame& frame) {
     if (!frame.checkpoint.empty()) folder_->writeCheckpoint(frame.number, frame.checkpoint, frame.report);
 }
 

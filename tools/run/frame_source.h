@@ -22,7 +22,7 @@ struct SequencedFrame {
     int number = 0;
     double time = 0.0;      ///< seconds
     bool isWanted = true;   ///< whether the frame was asked for; if not, it is simulated, but not written
-    bool isKept = false;    ///< the frame's file exists already; the simulation may be at another frame
+    bool isKept = false;    ///< the frame's files exist already; the simulation may be at another frame
     std::string stateHash;  ///< hash of the particles; empty if the frame gets no file
     std::vector<std::uint8_t> checkpoint;  ///< encoded checkpoint of this frame; empty if none is due
     Json report;                           ///< what the run has measured so far, for the checkpoint
@@ -48,6 +48,10 @@ class FrameSource {
 
     /// Writes the file of a frame that next() returned, unless it is kept or not wanted, and then its checkpoint.
     void store(const SequencedFrame& frame, std::span<const std::uint8_t> bytes);
+
+    /// Writes the checkpoint of a frame that next() returned, if one is due.
+    /// @pre the files of the frame are written
+    void storeCheckpoint(const SequencedFrame& frame);
 
     /// Completes the report, when all frames are stored.
     virtual void finish() = 0;

@@ -89,7 +89,8 @@ class RenderRun {
             render::requireEncoder(videoOptions(job));
             const render::AtomicFile canBeCreated(job.videoPath);
         }
-        return std::make_unique<FrameFolder>(*job.folder, kPictureNames, job.frames, identityOf(job, renderer));
+        return std::make_unique<FrameFolder>(*job.folder, std::vector{kPictureNames}, job.frames,
+                                             identityOf(job, renderer));
     }
 
     static render::VideoOptions videoOptions(const RenderJob& job) {

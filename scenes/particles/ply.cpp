@@ -1,20 +1,19 @@
 // A PLY file is a header of text lines and then the rows of its elements, one after the other. The header names the
 // properties of each element; a row has a number, or a list of numbers, for each of them.
-#include "scenes/text/ply.h"
+#include "scenes/particles/ply.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <charconv>
 #include <cstdint>
-#include <cstring>
 #include <iterator>
 #include <optional>
 #include <sstream>
 #include <utility>
 
+#include "scenes/particles/number_type.h"
 #include "scenes/text/input_error.h"
 
 namespace scenes {
@@ -23,31 +22,20 @@ namespace {
 enum class Encoding { text, littleEndian, bigEndian };
 
 /// A type that numbers of a PLY file may have.
-struct NumberType {
+struct NamedType {
     std::string_view name;
     std::string_view otherName;  ///< as some programs write it
-    std::size_t size;            ///< bytes
-    double (*decode)(const char* littleEndian);
+    NumberType number;
 };
 
-template <class Number>
-double decode(const char* littleEndian) {
-    static_assert(std::endian::native == std::endian::little);
-    Number number{};
-    std::memcpy(&number, littleEndian, sizeof number);
-    return static_cast<double>(number);
-}
-
-template <class Number>
-constexpr NumberType numberType(std::string_view name, std::string_view otherName) {
-    return {name, otherName, sizeof(Number), decode<Number>};
-}
-
-constexpr std::array kTypes = {
-    numberType<std::int8_t>("char", "int8"),    numberType<std::uint8_t>("uchar", "uint8"),
-    numberType<std::int16_t>("short", "int16"), numberType<std::uint16_t>("ushort", "uint16"),
-    numberType<std::int32_t>("int", "int32"),   numberType<std::uint32_t>("uint", "uint32"),
-    numberType<float>("float", "float32"),      numberType<double>("double", "float64")};
+constexpr std::array<NamedType, 8> kTypes = {{{"char", "int8", numberType<std::int8_t>()},
+                                              {"uchar", "uint8", numberType<std::uint8_t>()},
+                                              {"short", "int16", numberType<std::int16_t>()},
+                                              {"ushort", "uint16", numberType<std::uint16_t>()},
+                                              {"int", "int32", numberType<std::int32_t>()},
+                                              {"uint", "uint32", numberType<std::uint32_t>()},
+                                              {"float", "float32", numberType<float>()},
+                                              {"double", "float64", numberType<double>()}}};
 
 struct Property {
     std::string name;
@@ -116,9 +104,9 @@ Element elementOf(const Reader& reader, const std::vector<std::string>& words) {
 
 const NumberType* typeOf(const Reader& reader, const std::string& name) {
     const auto* const type =
-        std::ranges::find_if(kTypes, [&](const NumberType& one) { return one.name == name || one.otherName == name; });
+        std::ranges::find_if(kTypes, [&](const NamedType& one) { return one.name == name || one.otherName == name; });
     if (type == kTypes.end()) failInHeader(reader, fmt::format("unknown type \"{}\"", name));
-    return type;
+    return &type->number;
 }
 
 Property propertyOf(const Reader& reader, const std::vector<std::string>& words) {
@@ -223,7 +211,7 @@ void skipRows(Reader& reader, const Element& element) {
 
 /// Reads the vertices, and lists in `vertices.skipped` the properties that are not wanted.
 void readVertices(Reader& reader, const Element& element, std::span<const std::string_view> wanted,
-                  PlyVertices& vertices) {
+                  ParticleTable& vertices) {
     vertices.count = element.rowCount;
     vertices.columns.reserve(element.properties.size());  // so that pointers to columns stay valid
     std::vector<std::vector<double>*> columns;
@@ -238,27 +226,26 @@ void readVertices(Reader& reader, const Element& element, std::span<const std::s
                              fmt::format("property \"{}\" is a list, must be a number", property.name));
         if (vertices.column(property.name) != nullptr)
             throw InputError(reader.fileName, fmt::format("property \"{}\" is given twice", property.name));
-        columns.back() = &vertices.columns.emplace_back(PlyColumn{property.name, {}}).values;
+        columns.back() = &vertices.columns.emplace_back(NumberColumn{property.name, {}}).values;
     }
     readRows(reader, element, columns);
 }
 
 }  // namespace
 
-const PlyColumn* PlyVertices::column(std::string_view name) const {
-    const auto found = std::ranges::find(columns, name, &PlyColumn::name);
-    return found == columns.end() ? nullptr : &*found;
+bool isPly(std::string_view bytes) {
+    return bytes.starts_with("ply");
 }
 
-PlyVertices readPlyVertices(std::string_view bytes, const std::string& fileName,
-                            std::span<const std::string_view> wanted) {
+ParticleTable readPlyVertices(std::string_view bytes, const std::string& fileName,
+                              std::span<const std::string_view> wanted) {
     Reader reader{bytes, fileName};
     Header header = readHeader(reader);
     reader.encoding = *header.encoding;
     const auto isVertex = [](const Element& element) { return element.name == "vertex"; };
     if (std::ranges::count_if(header.elements, isVertex) != 1)
         throw InputError(fileName, "the header must have one element \"vertex\"");
-    PlyVertices vertices;
+    ParticleTable vertices;
     vertices.comments = std::move(header.comments);
     bool isRead = false;
     for (const Element& element : header.elements) {
@@ -266,7 +253,7 @@ PlyVertices readPlyVertices(std::string_view bytes, const std::string& fileName,
             readVertices(reader, element, wanted, vertices);
             isRead = true;
         } else {
-            vertices.skipped.push_back("element " + element.name);
+            if (element.rowCount > 0) vertices.skipped.push_back("element " + element.name);
             if (!isRead) skipRows(reader, element);  // rows after the vertices need not be read
         }
     }

@@ -1,8 +1,8 @@
-// Particle states as PLY files, which `globular simulate` writes, and a body with shape = "file" and `globular render
-// --states` read. The functions here work on bytes; the program reads and writes the files.
+// Particle states as files: what `globular simulate` writes by default, and what a body with shape = "file" reads, in
+// any of the formats of formats.h and of other programs. The functions here work on bytes; the program reads and writes
+// the files.
 //
-// The header's comments say which moment of which scene it is: "frame 45", "time 1.5" in seconds and "simulation_hash
-// 0123456789abcdef". One element "vertex", binary little-endian, in this order:
+// By default `globular simulate` writes PLY. One element "vertex", binary little-endian, in this order:
 //   double x y z        m
 //   double vx vy vz     m/s
 //   double radius       m
@@ -13,12 +13,14 @@
 // A body does not take the times of birth: in a scene that starts from a file, all particles have age 0.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "engine/state/particles.h"
+#include "scenes/particles/particle_frame.h"
 
 namespace scenes {
 
@@ -29,16 +31,11 @@ struct ParticleFile {
     bool hasRadius = false;
     bool hasMass = false;
     bool hasMaterial = false;
+    /// Names of what the particles are made of, in files that have no numbers of materials, and for each particle an
+    /// index into them. Both are empty for files without.
+    std::vector<std::string> speciesNames;
+    std::vector<std::uint32_t> species;
     std::vector<std::string> skipped;  ///< what else the file has: names of properties and elements
-};
-
-/// Which moment of which scene a state of particles is.
-struct StateStamp {
-    int frame = 0;
-    double time = 0.0;           ///< s
-    std::string simulationHash;  ///< Scene::simulationHash
-
-    friend bool operator==(const StateStamp&, const StateStamp&) = default;
 };
 
 /// The particles of a moment of a run, bit for bit.
@@ -51,10 +48,11 @@ struct ParticleState {
 /// @param stamp  what its comments say of the moment; without it they say nothing
 std::string encodeParticles(const engine::Particles& particles, const std::optional<StateStamp>& stamp = std::nullopt);
 
-/// Reads particles from the bytes of a PLY file, of this program or of another: as text or binary of either byte order,
-/// with properties of any number type in any order. All but x, y and z may be left out, vx, vy and vz only together.
-/// "pscale" and "psize" are other names of the radius. The memory taken is proportional to the number of bytes.
-/// @throws InputError that names the file, the particle and what is wrong
+/// Reads particles from the bytes of a file of this program or of another, whose content tells its format: PLY, VTK
+/// PolyData, extended XYZ or a LAMMPS dump. All but positions may be left out; velocities are given whole or not at
+/// all. "pscale" and "psize" are other names of the radius in PLY files. Of a file with several snapshots the last is
+/// read. The memory taken is proportional to the number of bytes.
+/// @throws InputError that names the file, the particle or the line, and what is wrong
 ParticleFile decodeParticles(std::string_view bytes, const std::string& fileName);
 
 /// Reads what encodeParticles() has written with a stamp. Properties are read as by decodeParticles(), but all of them

@@ -1,13 +1,11 @@
-// Positions, velocities, radii, masses, times of birth and materials as columns of PLY files. What is not known is
-// skipped and named; what is known must be right, because a particle in the wrong place is harder to notice than a
-// message.
-#include "scenes/model/particle_file.h"
+// Positions, velocities, radii, masses and materials as columns of files. What is not known is skipped and named; what
+// is known must be right, because a particle in the wrong place is harder to notice than a message.
+#include "scenes/particles/particle_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -15,13 +13,15 @@
 #include <utility>
 
 #include "engine/state/state_checks.h"
+#include "scenes/particles/extxyz.h"
+#include "scenes/particles/lammps_dump.h"
+#include "scenes/particles/number_type.h"
+#include "scenes/particles/ply.h"
+#include "scenes/particles/vtp.h"
 #include "scenes/text/input_error.h"
-#include "scenes/text/ply.h"
 
 namespace scenes {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "particle files are written little-endian");
 
 constexpr std::array<std::string_view, 9> kRealProperties = {"x",  "y",      "z",    "vx",        "vy",
                                                              "vz", "radius", "mass", "birth_time"};
@@ -33,11 +33,6 @@ constexpr std::array<std::string_view, 3> kRadiusNames = {"radius", "pscale", "p
 /// born when the run starts, nor "id", because they get new ids in the order of the rows.
 constexpr std::array<std::string_view, 13> kReadProperties = {
     "x", "y", "z", "vx", "vy", "vz", "radius", "pscale", "psize", "mass", "birth_time", "material", "id"};
-
-template <class Value>
-void put(std::string& bytes, const Value& value) {
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
 
 /// What numbers a property may have: the same as the keys of scene files that mean it.
 struct Rule {
@@ -52,30 +47,46 @@ constexpr Rule kMaterial{0.0, std::numeric_limits<std::uint32_t>::max(), true};
 constexpr Rule kId = kMaterial;
 constexpr Rule kTime{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max()};
 
-/// A property of the file, if it has one of that name. All its numbers keep the rule.
+/// A table that was read from a file.
+struct TableOfFile {
+    ParticleTable& table;
+    const std::string& fileName;
+};
+
+/// A column of the table, if it has one of that name. All its numbers keep the rule.
 /// @throws InputError that names the first that does not
-const PlyColumn* checkedColumn(const PlyVertices& vertices, std::string_view name, const Rule& rule,
-                               const std::string& fileName) {
-    const PlyColumn* const column = vertices.column(name);
+const NumberColumn* checkedColumn(const TableOfFile& file, std::string_view name, const Rule& rule) {
+    const NumberColumn* const column = file.table.column(name);
     if (column == nullptr) return nullptr;
-    for (std::size_t index = 0; index < vertices.count; ++index) {
+    for (std::size_t index = 0; index < file.table.count; ++index) {
         const double value = column->values[index];
         const bool isValid = rule.low <= value && value <= rule.high && !(rule.isWhole && value != std::floor(value));
-        if (!isValid)
-            throw InputError(fileName, fmt::format("particle {}: {} is {}, must be {}{} to {}", index, name, value,
-                                                   rule.isWhole ? "a whole number from " : "", rule.low, rule.high));
+        if (isValid) continue;
+        const int line = file.table.firstLine > 0 ? file.table.firstLine + static_cast<int>(index) : 0;
+        throw InputError({{file.fileName, line, 0,
+                           fmt::format("particle {}: {} is {}, must be {}{} to {}", index, name, value,
+                                       rule.isWhole ? "a whole number from " : "", rule.low, rule.high)}});
     }
     return column;
 }
 
 /// The three columns of a vector's components; all or none of them are there.
-std::array<const PlyColumn*, 3> vectorColumns(const PlyVertices& vertices, std::string_view prefix,
-                                              const std::string& fileName) {
-    std::array<const PlyColumn*, 3> columns{};
+std::array<const NumberColumn*, 3> vectorColumns(const TableOfFile& file, std::string_view prefix) {
+    std::array<const NumberColumn*, 3> columns{};
     for (std::size_t axis = 0; axis < 3; ++axis)
-        columns[axis] =
-            checkedColumn(vertices, std::string(prefix) + static_cast<char>('x' + axis), kCoordinate, fileName);
+        columns[axis] = checkedColumn(file, std::string(prefix) + static_cast<char>('x' + axis), kCoordinate);
     return columns;
+}
+
+/// The column of the radius, by the first of its names that the table has; the others count as skipped.
+const NumberColumn* radiusColumn(const TableOfFile& file) {
+    const NumberColumn* radius = nullptr;
+    for (const std::string_view name : kRadiusNames)
+        if (radius == nullptr)
+            radius = checkedColumn(file, name, kRadius);
+        else if (file.table.column(name) != nullptr)
+            file.table.skipped.emplace_back(name);
+    return radius;
 }
 
 std::string commentsOf(const std::optional<StateStamp>& stamp) {
@@ -86,7 +97,7 @@ std::string commentsOf(const std::optional<StateStamp>& stamp) {
 
 /// The words after the first one in the comment that begins with that one.
 /// @throws InputError if there is no such comment
-std::string commentNamed(const PlyVertices& vertices, const std::string& name, const std::string& fileName) {
+std::string commentNamed(const ParticleTable& vertices, const std::string& name, const std::string& fileName) {
     for (const std::string& comment : vertices.comments)
         if (comment.starts_with(name + ' ')) return comment.substr(name.size() + 1);
     throw InputError(fileName,
@@ -96,7 +107,7 @@ std::string commentNamed(const PlyVertices& vertices, const std::string& name, c
 }
 
 template <class Number>
-Number numberNamed(const PlyVertices& vertices, const std::string& name, const std::string& fileName) {
+Number numberNamed(const ParticleTable& vertices, const std::string& name, const std::string& fileName) {
     const std::string text = commentNamed(vertices, name, fileName);
     Number number{};
     const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -105,32 +116,38 @@ Number numberNamed(const PlyVertices& vertices, const std::string& name, const s
     return number;
 }
 
-ParticleFile particlesOf(PlyVertices vertices, const std::string& fileName) {
-    const auto position = vectorColumns(vertices, "", fileName);
+/// Reads the rows of a file of any format, which its first bytes tell.
+ParticleTable readTable(std::string_view bytes, const std::string& fileName) {
+    if (isPly(bytes)) return readPlyVertices(bytes, fileName, kReadProperties);
+    if (isLammpsDump(bytes)) return readLammpsDump(bytes, fileName);
+    if (isExtxyz(bytes)) return readExtxyz(bytes, fileName);
+    if (isXml(bytes)) return readVtp(bytes, fileName);
+    throw InputError(fileName,
+                     "is no particle file: neither PLY nor VTK PolyData (.vtp), extended XYZ or a LAMMPS dump as text");
+}
+
+/// Makes particles of the rows of a file.
+ParticleFile particlesOf(ParticleTable table, const std::string& fileName) {
+    const TableOfFile source{table, fileName};
+    const auto position = vectorColumns(source, "");
     for (std::size_t axis = 0; axis < 3; ++axis)
         if (position[axis] == nullptr)
             throw InputError(fileName, fmt::format("property \"{}\" is missing", static_cast<char>('x' + axis)));
-    const auto velocity = vectorColumns(vertices, "v", fileName);
+    const auto velocity = vectorColumns(source, "v");
     const auto given = 3 - std::ranges::count(velocity, nullptr);
     if (given != 0 && given != 3) throw InputError(fileName, "velocities need all of vx, vy and vz");
-    const PlyColumn* radius = nullptr;
-    for (const std::string_view name : kRadiusNames)
-        if (radius == nullptr)
-            radius = checkedColumn(vertices, name, kRadius, fileName);
-        else if (vertices.column(name) != nullptr)
-            vertices.skipped.emplace_back(name);
-    const PlyColumn* const mass = checkedColumn(vertices, "mass", kMass, fileName);
-    const PlyColumn* const material = checkedColumn(vertices, "material", kMaterial, fileName);
+    const NumberColumn* const radius = radiusColumn(source);
+    const NumberColumn* const mass = checkedColumn(source, "mass", kMass);
+    const NumberColumn* const material = checkedColumn(source, "material", kMaterial);
 
     ParticleFile file;
     file.hasRadius = radius != nullptr;
     file.hasMass = mass != nullptr;
     file.hasMaterial = material != nullptr;
-    file.skipped = std::move(vertices.skipped);
-    const auto vectorAt = [](const std::array<const PlyColumn*, 3>& columns, std::size_t index) {
+    const auto vectorAt = [](const std::array<const NumberColumn*, 3>& columns, std::size_t index) {
         return engine::Vec3(columns[0]->values[index], columns[1]->values[index], columns[2]->values[index]);
     };
-    for (std::size_t index = 0; index < vertices.count; ++index) {
+    for (std::size_t index = 0; index < table.count; ++index) {
         engine::NewParticle particle;
         particle.position = vectorAt(position, index);
         particle.velocity = given == 3 ? vectorAt(velocity, index) : engine::Vec3(engine::Vec3::Zero());
@@ -139,6 +156,9 @@ ParticleFile particlesOf(PlyVertices vertices, const std::string& fileName) {
         particle.material = material != nullptr ? static_cast<std::uint32_t>(material->values[index]) : 0;
         append(file.particles, particle);
     }
+    file.skipped = std::move(table.skipped);
+    file.speciesNames = std::move(table.speciesNames);
+    file.species = std::move(table.species);
     return file;
 }
 
@@ -151,37 +171,42 @@ std::string encodeParticles(const engine::Particles& particles, const std::optio
     for (const std::string_view name : kRealProperties) bytes += fmt::format("property double {}\n", name);
     bytes += "property uint material\nproperty uint id\nend_header\n";
     for (std::size_t index = 0; index < particles.count(); ++index) {
-        put(bytes, particles.position[index]);
-        put(bytes, particles.velocity[index]);
-        put(bytes, particles.radius[index]);
-        put(bytes, particles.mass[index]);
-        put(bytes, particles.birthTime[index]);
-        put(bytes, particles.material[index]);
-        put(bytes, particles.id[index]);
+        putBytes(bytes, particles.position[index]);
+        putBytes(bytes, particles.velocity[index]);
+        putBytes(bytes, particles.radius[index]);
+        putBytes(bytes, particles.mass[index]);
+        putBytes(bytes, particles.birthTime[index]);
+        putBytes(bytes, particles.material[index]);
+        putBytes(bytes, particles.id[index]);
     }
     return bytes;
 }
 
 ParticleFile decodeParticles(std::string_view bytes, const std::string& fileName) {
-    return particlesOf(readPlyVertices(bytes, fileName, kReadProperties), fileName);
+    return particlesOf(readTable(bytes, fileName), fileName);
 }
 
 ParticleState decodeState(std::string_view bytes, const std::string& fileName) {
-    PlyVertices vertices = readPlyVertices(bytes, fileName, kReadProperties);
+    ParticleTable table = readPlyVertices(bytes, fileName, kReadProperties);
+    const TableOfFile source{table, fileName};
     ParticleState state;
-    state.stamp = {numberNamed<int>(vertices, "frame", fileName), numberNamed<double>(vertices, "time", fileName),
-                   commentNamed(vertices, "simulation_hash", fileName)};
+    state.stamp = {numberNamed<int>(table, "frame", fileName), numberNamed<double>(table, "time", fileName),
+                   commentNamed(table, "simulation_hash", fileName)};
     for (const char* name : {"vx", "radius", "mass", "birth_time", "material", "id"})
-        if (vertices.column(name) == nullptr)
-            throw InputError(fileName, fmt::format("property \"{}\" is missing", name));
-    const std::vector<double> birthTimes = checkedColumn(vertices, "birth_time", kTime, fileName)->values;
-    const std::vector<double> ids = checkedColumn(vertices, "id", kId, fileName)->values;
-    state.particles = particlesOf(std::move(vertices), fileName).particles;
+        if (table.column(name) == nullptr) throw InputError(fileName, fmt::format("property \"{}\" is missing", name));
+    const std::vector<double> birthTimes = checkedColumn(source, "birth_time", kTime)->values;
+    const std::vector<double> ids = checkedColumn(source, "id", kId)->values;
+    state.particles = particlesOf(std::move(table), fileName).particles;
     state.particles.birthTime = birthTimes;
     for (std::size_t index = 0; index < ids.size(); ++index)
         state.particles.id[index] = static_cast<std::uint32_t>(ids[index]);
     if (!ids.empty()) state.particles.nextId = state.particles.id.back() + 1;
     return state;
+}
+
+const NumberColumn* ParticleTable::column(std::string_view name) const {
+    const auto found = std::ranges::find(columns, name, &NumberColumn::name);
+    return found == columns.end() ? nullptr : &*found;
 }
 
 }  // namespace scenes
