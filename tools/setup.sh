@@ -14,8 +14,10 @@ packages=(
 if [ "${1:-}" = --tests ]; then
     shift
     # clang has the sanitizers and the fuzzer; llvm the symbolizer that puts names into their reports; chromium opens the
-    # report of `globular compare`; python3-jsonschema checks the scenes against `globular schema --json-schema`; Slurm (with
-    # munge), GNU parallel and python3-yaml run the jobs of examples/.
-    packages+=(catch2 clang libclang-rt-dev llvm chromium python3-jsonschema slurm-wlm munge parallel python3-yaml)
+    # report of `globular compare`; python3-jsonschema checks the scenes against `globular schema --json-schema`; meshio, VTK and
+    # LAMMPS read particle files back, and write some to be read; Slurm (with munge), GNU parallel and python3-yaml run the jobs of
+    # examples/.
+    packages+=(catch2 clang libclang-rt-dev llvm chromium python3-jsonschema python3-meshio python3-vtk9 lammps slurm-wlm munge
+        parallel python3-yaml)
 fi
 exec "$(dirname "$0")/install_packages.sh" "${packages[@]}" "$@"
