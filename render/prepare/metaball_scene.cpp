@@ -28,8 +28,8 @@ MetaballScene metaballScene(const CameraFrame& frame, const View& view, std::spa
     scene.balls.resize(scene.particles.size());
     tbb::parallel_for(std::size_t{0}, scene.balls.size(), [&](std::size_t k) {
         const SkinBall& ball = balls[scene.particles[k]];
-        const float peak = std::sqrt(ball.weight);
-        scene.balls[k] = {frame.toView(ball.center), ball.reach, peak, std::sqrt(peak) / ball.reach};
+        const BallKernel kernel = kernelOf(ball);
+        scene.balls[k] = {frame.toView(ball.center), ball.reach, kernel.peak, kernel.slope};
     });
     std::vector<ViewSphere> kernels(scene.balls.size());
     float smallest = std::numeric_limits<float>::max();
@@ -45,8 +45,7 @@ MetaballScene metaballScene(const CameraFrame& frame, const View& view, std::spa
     const double mean = sum / static_cast<double>(std::max<std::size_t>(scene.balls.size(), 1));
     scene.smallestRadius = std::max(smallest, static_cast<float>(0.1 * mean)) / view.field.reach;
     scene.step = 0.5F * scene.smallestRadius;
-    const float root = 1.0F - 1.0F / (view.field.reach * view.field.reach);
-    scene.threshold = root * root;
+    scene.threshold = surfaceThreshold(view.field);
     scene.tiles = binToTiles(frame, kernels, pixelBounds(frame, kernels));
     return scene;
 }

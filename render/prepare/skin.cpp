@@ -262,6 +262,16 @@ SkinBall smoothed(const NeighborInfluence& influence, const Sphere& particle, fl
 
 }  // namespace
 
+BallKernel kernelOf(const SkinBall& ball) {
+    const float peak = std::sqrt(ball.weight);
+    return {peak, std::sqrt(peak) / ball.reach};
+}
+
+float surfaceThreshold(const MetaballField& field) {
+    const float root = 1.0F - 1.0F / (field.reach * field.reach);
+    return root * root;
+}
+
 std::vector<SkinBall> skinOf(const View& view) {
     std::vector<SkinBall> balls(view.particles.size());
     if (view.field.skin == Skin::plain) {

@@ -1,5 +1,6 @@
 // The balls whose field is the surface of metaballs: the particles themselves, or for a smooth skin what view.h
-// (MetaballField) makes of them. Called by the preparation of a view.
+// (MetaballField) makes of them, and the law of that field. Called by the preparation of a view and by the mesh of the
+// surface.
 #pragma once
 
 #include <vector>
@@ -16,6 +17,25 @@ struct SkinBall {
     float weight = 1.0F;  ///< factor of its kernel in the field
     float reach = 1.0F;   ///< radius of its kernel, m
 };
+
+/// The kernel of a ball: root(d^2)^2 at distances d below its reach, and 0 beyond.
+struct BallKernel {
+    float peak = 1.0F;   ///< square root of the ball's weight
+    float slope = 1.0F;  ///< fourth root of the weight over the reach, 1/m
+
+    /// The square root of the kernel where that is above zero; zero and below from the ball's reach on.
+    /// @param squaredDistance  of a point from the ball's center, m^2
+    template <typename Number>
+    Number root(Number squaredDistance) const {
+        return Number(peak) - squaredDistance * (Number(slope) * Number(slope));
+    }
+};
+
+/// The kernel of a ball with a weight and a reach above 0.
+BallKernel kernelOf(const SkinBall& ball);
+
+/// The value of the field at the surface of metaballs.
+float surfaceThreshold(const MetaballField& field);
 
 /// Makes one ball for each particle; that of a particle whose radius is 0 means nothing. Where no other particle is in
 /// reach, the ball stays at its particle, with weight 1 and a kernel of reach * radius. The result depends on the view
