@@ -11,6 +11,7 @@
 #include "render/renderer.h"
 #include "studies/common/timing.h"
 #include "studies/pictures/dam_break_view.h"
+#include "studies/pictures/level_pool.h"
 #include "studies/pictures/pictures.h"
 
 namespace studies {
@@ -43,34 +44,6 @@ long insideAlong(const oracle::Scene& scene, const Box& box, double x, double z,
     return inside;
 }
 
-constexpr int kPoolSide = 24;  // number of particles along each horizontal side of the level pool
-constexpr int kPoolDepth = 6;  // number of layers of particles
-constexpr int kPoolVolume = kPoolSide * kPoolSide * kPoolDepth;
-
-/// A level pool on a jittered lattice with a spacing of 1 m, seen from above. The paper's liquid settles at a spacing
-/// of 0.76 diameters, which gives the radius of 0.658.
-render::View levelPool(const render::View& appearance) {
-    constexpr double kJitter = 0.12;  // lattice spacings; chosen: as in dam_break_view.cpp
-    render::View view = appearance;
-    view.particles.clear();
-    view.ground.reset();
-    view.camera.projection = render::Projection::orthographic;
-    view.camera.eye = {0.0F, 10.0F, 0.0F};
-    view.camera.up = {0.0F, 0.0F, -1.0F};
-    view.camera.target = glm::vec3(0.0F);
-    view.camera.halfHeight = 3.0F;
-    // Multiples of irrational numbers modulo 1 are spread evenly and do not repeat with the lattice.
-    const auto jitter = [](int k, double by) { return kJitter * (2.0 * (k * by - std::floor(k * by)) - 1.0); };
-    for (int k = 0; k < kPoolVolume; ++k) {
-        const glm::dvec3 lattice(k % kPoolSide - 0.5 * kPoolSide, -(k / kPoolSide / kPoolSide),
-                                 k / kPoolSide % kPoolSide - 0.5 * kPoolSide);
-        const glm::dvec3 off(jitter(k, std::numbers::sqrt2), jitter(k, std::numbers::sqrt3),
-                             jitter(k, std::numbers::pi));
-        view.particles.push_back({glm::vec3(lattice + off), 0.658F, glm::vec3(0.8F)});
-    }
-    return view;
-}
-
 /// RMS tilt from the vertical of the normals of a surface as seen from above, degrees.
 double bumpsOf(render::Renderer& renderer, const render::View& pool) {
     double squares = 0.0;
@@ -91,7 +64,7 @@ SmoothingRow shapeOf(const SmoothingSettings& settings, render::Skin skin) {
     render::View view = damBreakView(1000, render::Style::metaballs);
     view.field.skin = skin;
     const render::View pool = levelPool(view);
-    row.volume = fieldVolume(pool, settings.spacing) / kPoolVolume;
+    row.volume = fieldVolume(pool, settings.spacing) / static_cast<double>(pool.particles.size());
     view.particles = {{glm::vec3(0.0F), 1.0F, glm::vec3(0.8F)}};  // a single particle with a radius of 1 m
     row.lone = fieldVolume(view, 0.2 * settings.spacing) / (4.0 / 3.0 * std::numbers::pi);
     // At final quality a ray is cast for every pixel; at lower qualities some normals are interpolated.
