@@ -1,0 +1,47 @@
+// The door to OpenVDB, which only isosurface_openvdb.cpp includes. In a build without it (isosurface_none.cpp)
+// openVdbVersion() is empty, and the other functions throw.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "render/mesh/sampled_field.h"
+#include "render/mesh/triangle_mesh.h"
+
+namespace render {
+
+/// The version of OpenVDB that is built in, such as "10.0.1"; empty without it.
+std::string openVdbVersion();
+
+/// Four vertices each, counterclockwise as seen from outside. The mesh is closed, but more than two quads may meet at
+/// an edge.
+struct QuadMesh {
+    std::vector<glm::dvec3> points;  ///< in cells of the field's lattice
+    std::vector<std::array<std::uint32_t, 4>> quads;
+};
+
+/// The surface where a sampled field is zero, with one vertex or more in each cell that it crosses. The result is the
+/// same for any number of threads.
+/// @throws SystemError in a build without OpenVDB
+QuadMesh isosurfaceOf(const SampledField& field);
+
+/// What a .vdb file says beside the distances.
+struct LevelSetLabel {
+    double cell = 1.0;       ///< distance of neighboring voxels, m
+    glm::dvec3 origin{0.0};  ///< what the positions of the mesh are relative to, m
+    double time = 0.0;       ///< of the frame, s
+    int frame = 0;
+    std::string sceneHash;
+};
+
+/// The bytes of a .vdb file with the level set of a closed mesh: a grid "surface" of signed distances in meters,
+/// negative inside, within three voxels of the surface, with a transform in meters and the metadata "time" (double, s),
+/// "frame" (int32) and "scene_hash" (string). The same mesh gives the same bytes for any number of threads.
+/// @throws SystemError in a build without OpenVDB
+std::string encodeLevelSet(const TriangleMesh& mesh, const LevelSetLabel& label);
+
+}  // namespace render

@@ -1,0 +1,114 @@
+// Meshes and .vdb files by OpenVDB. The only file that includes it: it takes as long to compile as all others of its
+// room together.
+#include "render/mesh/isosurface.h"
+
+#include <openvdb/version.h>
+// What is used of OpenVDB is compiled here, with the project's own flags: instances in the system's library may be
+// compiled with fused multiplications, which give other bits.
+#undef OPENVDB_USE_EXPLICIT_INSTANTIATION
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/MeshToVolume.h>
+#include <openvdb/tools/VolumeToMesh.h>
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+namespace render {
+namespace {
+
+using Tree = openvdb::FloatTree;
+using Leaf = Tree::LeafNodeType;
+static_assert(Leaf::DIM == kBlockSide);
+
+/// Half the width of the band of distances around the surface, in voxels: what tools for level sets expect.
+constexpr float kHalfWidth = 3.0F;
+
+openvdb::Coord firstNode(const glm::ivec3& block) {
+    return openvdb::Coord(block.x, block.y, block.z) << 3;
+}
+
+openvdb::FloatGrid::Ptr gridOf(const SampledField& field) {
+    auto grid = openvdb::FloatGrid::create(field.outside);
+    grid->setGridClass(openvdb::GRID_LEVEL_SET);  // values are negative inside
+    for (std::size_t k = 0; k < field.blocks.size(); ++k) {
+        auto* leaf = new Leaf(firstNode(field.blocks[k]), field.outside, true);
+        std::copy(field.values[k]->begin(), field.values[k]->end(), leaf->buffer().data());
+        grid->tree().addLeaf(leaf);  // which the tree owns from now on
+    }
+    for (const glm::ivec3& block : field.inside) grid->tree().addTile(1, firstNode(block), -field.outside, false);
+    return grid;
+}
+
+/// A file in memory. OpenVDB's own classes write either to a path or without the offsets that most readers need.
+class MemoryFile : public openvdb::io::Archive {
+ public:
+    Ptr copy() const override { return Ptr(new MemoryFile(*this)); }
+    std::string bytesOf(const openvdb::GridCPtrVec& grids) const {
+        std::ostringstream stream;
+        write(stream, grids, true);
+        return std::move(stream).str();
+    }
+};
+
+/// Replaces the random identifier in the header of a .vdb file by one that depends on the other bytes alone.
+void makeRepeatable(std::string& file) {
+    // A magic number of 8 bytes, three versions of 4 bytes, a flag; then 36 digits and hyphens.
+    constexpr std::size_t kStart = 21;
+    constexpr std::size_t kLength = 36;
+    std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a
+    for (std::size_t k = kStart + kLength; k < file.size(); ++k)
+        hash = (hash ^ static_cast<unsigned char>(file[k])) * 0x100000001b3U;
+    for (std::size_t k = kStart; k < kStart + kLength; ++k) {
+        if (file[k] == '-') continue;
+        file[k] = "0123456789abcdef"[hash % 16];
+        hash = hash / 16 + (hash % 16 << 60);
+    }
+}
+
+}  // namespace
+
+std::string openVdbVersion() {
+    return OPENVDB_LIBRARY_VERSION_STRING;
+}
+
+QuadMesh isosurfaceOf(const SampledField& field) {
+    QuadMesh mesh;
+    if (field.blocks.empty()) return mesh;
+    const openvdb::FloatGrid::Ptr grid = gridOf(field);
+    std::vector<openvdb::Vec3s> points;
+    std::vector<openvdb::Vec4I> quads;
+    openvdb::tools::volumeToMesh(*grid, points, quads, 0.0);
+    mesh.points.reserve(points.size());
+    for (const openvdb::Vec3s& point : points) mesh.points.emplace_back(point.x(), point.y(), point.z());
+    mesh.quads.reserve(quads.size());
+    // OpenVDB's run clockwise.
+    for (const openvdb::Vec4I& quad : quads) mesh.quads.push_back({quad[3], quad[2], quad[1], quad[0]});
+    return mesh;
+}
+
+std::string encodeLevelSet(const TriangleMesh& mesh, const LevelSetLabel& label) {
+    openvdb::initialize();
+    const auto transform = openvdb::math::Transform::createLinearTransform(label.cell);
+    transform->postTranslate({label.origin.x, label.origin.y, label.origin.z});
+    std::vector<openvdb::Vec3s> points;  // in voxels
+    std::vector<openvdb::Vec3I> triangles;
+    points.reserve(mesh.positions.size());
+    triangles.reserve(mesh.triangles.size());
+    for (const glm::dvec3& position : mesh.positions) {
+        const glm::vec3 at(position / label.cell);
+        points.emplace_back(at.x, at.y, at.z);
+    }
+    for (const Triangle& triangle : mesh.triangles) triangles.emplace_back(triangle[0], triangle[1], triangle[2]);
+    const openvdb::tools::QuadAndTriangleDataAdapter<openvdb::Vec3s, openvdb::Vec3I> adapter(points, triangles);
+    const auto grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(adapter, *transform, kHalfWidth, kHalfWidth);
+    grid->setName("surface");
+    grid->insertMeta("time", openvdb::DoubleMetadata(label.time));
+    grid->insertMeta("frame", openvdb::Int32Metadata(label.frame));
+    grid->insertMeta("scene_hash", openvdb::StringMetadata(label.sceneHash));
+    std::string file = MemoryFile().bytesOf({grid});
+    makeRepeatable(file);
+    return file;
+}
+
+}  // namespace render
