@@ -89,6 +89,7 @@ int main(int argc, char** argv) {
     tools::addRenderCommand(program);
     tools::addStripCommand(program);
     tools::addSimulateCommand(program);
+    tools::addMeshCommand(program);
     tools::addFiguresCommand(program);
     tools::addVideoCommand(program);
     tools::addAssembleCommand(program);

@@ -85,8 +85,22 @@ std::string timeText(const Scene& scene, double time) {
     return fmt::format("t = {:.{}f} s", time, scene.fps.framesIn(1.0) > 100.0 ? 3 : 2);
 }
 
-render::View frameView(const Scene& scene, const engine::Simulation& simulation) {
+Vec3 viewOrigin(const Scene& scene, double time) {
+    return originOf(cameraAt(scene.camera, time));
+}
+
+std::vector<render::Sphere> drawnParticles(const Scene& scene, const engine::Simulation& simulation,
+                                           const Vec3& origin) {
     const engine::Particles& particles = simulation.particles;
+    std::vector<render::Sphere> drawn;
+    drawn.reserve(particles.count());
+    for (std::size_t index = 0; index < particles.count(); ++index)
+        drawn.push_back({toFloat(particles.position[index] - origin), toFloat(particles.radius[index]),
+                         toFloat(particleColor(scene, particles, index, simulation.time))});
+    return drawn;
+}
+
+render::View frameView(const Scene& scene, const engine::Simulation& simulation) {
     const double time = simulation.time;
     render::View view = scene.look.common;
     const CameraPlacement camera = cameraAt(scene.camera, time);
@@ -99,10 +113,7 @@ render::View frameView(const Scene& scene, const engine::Simulation& simulation)
     }
     addObstacles(scene.look, origin, view);
     if (scene.look.hasTimeStamp) view.overlay.stamp = timeText(scene, time);
-    view.particles.reserve(particles.count());
-    for (std::size_t index = 0; index < particles.count(); ++index)
-        view.particles.push_back({toFloat(particles.position[index] - origin), toFloat(particles.radius[index]),
-                                  toFloat(particleColor(scene, particles, index, time))});
+    view.particles = drawnParticles(scene, simulation, origin);
     return view;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "engine/run/advance.h"
 #include "render/picture/view.h"
@@ -23,5 +24,13 @@ std::string timeText(const Scene& scene, double time);
 /// positions are relative to a point near the camera's target where this is far away, so that a scene looks the same
 /// there as at the origin; near the origin they are the scene's own.
 render::View frameView(const Scene& scene, const engine::Simulation& simulation);
+
+/// The point that the positions of a view are relative to at a time (s), which is the origin of most scenes.
+engine::Vec3 viewOrigin(const Scene& scene, double time);
+
+/// The particles at the current time of the simulation as a view has them.
+/// @param origin  what their positions are to be relative to, m
+std::vector<render::Sphere> drawnParticles(const Scene& scene, const engine::Simulation& simulation,
+                                           const engine::Vec3& origin);
 
 }  // namespace scenes

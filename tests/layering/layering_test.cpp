@@ -50,13 +50,15 @@ const std::map<std::string, std::vector<std::string>> kRooms = {
       "engine/obstacles", "engine/force_law", "engine/core"}},
     {"render",
      {"render", "render/opengl", "render/opengl/context", "render/cpu", "render/cpu/shading", "render/cpu/lighting",
-      "render/cpu/metaballs", "render/cpu/raster", "render/prepare", "render/overlay", "render/output",
+      "render/cpu/metaballs", "render/cpu/raster", "render/mesh", "render/prepare", "render/overlay", "render/output",
       "render/compare", "render/picture"}},
     {"scenes", {"scenes/view", "scenes/build", "scenes/schema", "scenes/model", "scenes/particles", "scenes/text"}},
     {"studies",
      {"studies/accuracy", "studies/stability", "studies/scaling", "studies/bench", "studies/pictures", "studies/oracle",
       "studies/common"}},
-    {"tools", {"tools", "tools/commands", "tools/pages", "tools/compare", "tools/run", "tools/frames", "tools/system"}}};
+    {"tools",
+     {"tools", "tools/commands", "tools/pages", "tools/compare", "tools/mesh", "tools/run", "tools/frames",
+      "tools/system"}}};
 
 /// The layout shows the architecture only as long as a room fits on a screen.
 constexpr std::size_t kMostFilesInRoom = 25;

@@ -14,6 +14,7 @@ namespace tools {
 void addRenderCommand(CLI::App& program);
 void addStripCommand(CLI::App& program);
 void addSimulateCommand(CLI::App& program);
+void addMeshCommand(CLI::App& program);
 void addFiguresCommand(CLI::App& program);
 void addVideoCommand(CLI::App& program);
 void addAssembleCommand(CLI::App& program);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "render/picture/system_error.h"
 #include "tools/system/text.h"
@@ -17,6 +18,8 @@ namespace {
 constexpr std::string_view kManifestName = "manifest.json";
 constexpr std::string_view kChunkManifestExtension = ".json";
 constexpr std::string_view kCheckpointPrefix = "checkpoint-";
+
+constexpr std::array<FrameNames, 3> kMeshNames = {{{"mesh-", ".ply"}, {"mesh-", ".obj"}, {"mesh-", ".vdb"}}};
 
 }  // namespace
 
@@ -62,8 +65,15 @@ FrameNames stateNames(const scenes::ParticleFormat& format) {
     return {format.prefix, format.extension, isDefault ? std::string_view() : format.name};
 }
 
+FrameNames meshNames(std::string_view format) {
+    const auto names =
+        std::ranges::find_if(kMeshNames, [&](const FrameNames& each) { return each.extension.substr(1) == format; });
+    return names == kMeshNames.end() ? kMeshNames.front() : *names;
+}
+
 std::vector<FrameNames> allFrameNames() {
     std::vector<FrameNames> all = {kPictureNames};
+    all.insert(all.end(), kMeshNames.begin(), kMeshNames.end());
     for (const scenes::ParticleFormat& format : scenes::particleFormats()) all.push_back(stateNames(format));
     return all;
 }

@@ -16,7 +16,8 @@ namespace tools {
 struct FrameNames {
     std::string_view prefix;
     std::string_view extension;
-    std::string_view format = "";  ///< what the manifest calls them; empty for pictures and for the default of states
+    std::string_view format =
+        "";  ///< what the manifest calls them; empty for pictures, meshes and the default of states
 
     /// The name of a frame's file, such as "frame-00042.png".
     std::string fileName(int frame) const;
@@ -29,7 +30,11 @@ inline constexpr FrameNames kStateNames = {"particles-", ".ply"};
 /// How particle states in a format are named.
 FrameNames stateNames(const scenes::ParticleFormat& format);
 
-/// How all files are named that show a frame: pictures, and states in every format.
+/// How meshes are named.
+/// @param format  "ply", "obj" or "vdb"; "ply" is taken for any other text
+FrameNames meshNames(std::string_view format);
+
+/// How all files are named that show a frame: pictures, states and meshes in every format.
 std::vector<FrameNames> allFrameNames();
 
 /// The file that lists the .vtp files of a folder, for ParaView.

@@ -50,6 +50,14 @@ bool isRunReport(const fs::path& file) {
     return json.is_object() && json.contains("scene_hash") && json.contains("state_hash");
 }
 
+/// The names of the frames that a manifest lists: pictures of `render`, meshes of `mesh` or states of `simulate`.
+FrameNames namesOf(const Json& identity) {
+    if (identity.contains("size")) return kPictureNames;
+    if (!identity.contains("mesh")) return kStateNames;
+    const Json& mesh = identity["mesh"];
+    return meshNames(mesh.is_object() ? mesh.value("format", "") : "");
+}
+
 [[noreturn]] void failForeign(const fs::path& file) {
     throw scenes::InputError(file.string(),
                              "this file was not written by a run into this folder; choose another folder or remove it");
@@ -122,10 +130,8 @@ void FrameFolder::requireOwnFiles(const std::vector<fs::path>& files, bool isDam
     const auto anyManifest = [&](const auto& holds) { return holds(manifest_) || std::ranges::any_of(others_, holds); };
     const auto isListed = [&](const FrameNames& names, const fs::path& file) {
         return anyManifest([&](const Manifest& manifest) {
-            // A manifest of `render` lists pictures, one of `simulate` particle states.
-            const FrameNames& listed = manifest.identity.contains("size") ? kPictureNames : kStateNames;
             return manifest.lists(*names.frameOf(file), names.format) &&
-                   (!names.format.empty() || listed.frameOf(file));
+                   (!names.format.empty() || namesOf(manifest.identity).frameOf(file));
         });
     };
     const auto hasSeries = [](const Manifest& manifest) { return manifest.otherFormats.contains("vtp"); };

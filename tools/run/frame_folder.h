@@ -1,7 +1,7 @@
 // The folder that a run writes its frames into: a file for each frame and format, a manifest, and the last two
 // checkpoints. That is all that is needed to resume the run, however it ended. The chunks of a run share a folder:
 // their frames have the names that they have in a run of all frames, and each chunk has a manifest and checkpoints of
-// its own. Used by `render` and `simulate`.
+// its own. Used by `render`, `simulate` and `mesh`.
 #pragma once
 
 #include <chrono>

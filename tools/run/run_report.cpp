@@ -142,6 +142,7 @@ Json runJson(const scenes::Scene& scene, FinishedRun& run) {
     engine::Simulation& simulation = run.simulation;
     const RunReport& report = run.report;
     Json json = programJson(scene, report);
+    if (!report.mesh.is_null()) json["mesh"] = report.mesh;
     json["particles"] = engine::largestCount(simulation);
     json["births"] = engine::birthCount(simulation);
     json["refused_births"] = engine::refusalCount(simulation);

@@ -17,8 +17,8 @@ namespace tools {
 /// Wall-clock seconds of a run by stage. Stages overlap, so that their sum may exceed the total.
 struct StageSeconds {
     double simulating = 0.0;
-    double reading = 0.0;  ///< reading states instead of simulating
-    double drawing = 0.0;
+    double reading = 0.0;   ///< reading states instead of simulating
+    double drawing = 0.0;   ///< drawing pictures or making meshes
     double encoding = 0.0;  ///< encoding and writing PNG, PLY and video
     double all = 0.0;
 };
@@ -60,6 +60,7 @@ struct RunReport {
     int frames = 0;                ///< number of frames asked for that were written or kept
     int threads = 1;
     RendererRecord renderer;  ///< what drew; empty if nothing was drawn
+    Json mesh;                ///< what the meshes are of and what is in them; null if none were made
     std::string stateHash;    ///< hash of the particles at the last frame; empty if there is none
     std::string unstable;     ///< why the simulation became unstable; empty if it did not
     int interruptedBy = 0;    ///< the signal that ended the run early, or 0

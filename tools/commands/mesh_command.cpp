@@ -1,0 +1,149 @@
+// globular mesh: simulates a scene, and writes the surface of its metaballs as a closed mesh for each frame.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "render/output/atomic_file.h"
+#include "tools/commands/commands.h"
+#include "tools/mesh/frame_mesh.h"
+#include "tools/run/frame_sequence.h"
+#include "tools/run/run_warnings.h"
+#include "tools/run/threads.h"
+#include "tools/system/command_files.h"
+#include "tools/system/process.h"
+
+namespace tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct MeshOptions {
+    RunOptions run;
+    SceneOptions scene;
+    FolderOptions folder;
+    std::string frames;
+    MeshSettings mesh;
+};
+
+/// Whether the scene file or an override gives a key.
+bool isGiven(const scenes::Scene& scene, const std::string& path) {
+    return std::any_of(scene.values.begin(), scene.values.end(), [&](const scenes::EffectiveValue& value) {
+        return value.path == path && value.origin == scenes::ValueOrigin::given;
+    });
+}
+
+/// Tells which metaballs the mesh of a scene that is drawn as spheres is of.
+void tellOfMetaballs(const scenes::Scene& scene, const RunOptions& options) {
+    if (scene.look.common.style == render::Style::metaballs || options.verbosity() != Verbosity::normal) return;
+    const render::MetaballField& field = scene.look.common.field;
+    const auto origin = [&](const char* key) { return isGiven(scene, key) ? "" : " (default)"; };
+    printToStderr(
+        fmt::format("the scene is drawn as spheres; the mesh is of metaballs with look.metaball_reach = "
+                    "{:g}{} and look.skin = \"{}\"{}\n",
+                    field.reach, origin("look.metaball_reach"), field.skin == render::Skin::smooth ? "smooth" : "plain",
+                    origin("look.skin")));
+}
+
+/// The work on one frame of a run: its mesh, which is stored where it is not there yet.
+void meshFrame(const SequencedFrame& frame, const FrameMesher& mesher, FrameSequence& sequence, Progress& progress) {
+    RunReport& report = sequence.report();
+    FrameMesh mesh;
+    if (frame.isWanted && !frame.isKept) {
+        const Stopwatch watch(report.seconds.drawing);
+        const Progress::Work work(progress, fmt::format("meshing frame {}", frame.number));
+        mesh = mesher.meshOf(sequence.simulation(), frame.number);
+        report.mesh["frames"].push_back(mesh.facts);
+    }
+    const Stopwatch watch(report.seconds.encoding);
+    sequence.store(frame, {reinterpret_cast<const std::uint8_t*>(mesh.bytes.data()), mesh.bytes.size()});
+}
+
+FinishedRun meshFrames(const scenes::Scene& scene, const FrameList& frames, const MeshOptions& options,
+                       const std::string& title) {
+    const FrameMesher mesher(scene, options.mesh);
+    Progress progress(title, frames.count(), options.run.verbosity());
+    Json identity = sceneIdentity(scene);
+    identity["mesh"] = mesher.identity();
+    FrameFolder folder(options.folder, {mesher.names()}, frames, identity);
+    FrameSequence sequence(scene, frames, {&folder, false}, progress);
+    RunReport& report = sequence.report();
+    report.threads = threadCount(options.run);
+    report.mesh = mesher.description();
+    {
+        const Stopwatch total(report.seconds.all);
+        while (const auto frame = sequence.next()) {
+            meshFrame(*frame, mesher, sequence, progress);
+            if (!frame->isWanted) continue;
+            ++report.frames;
+            progress.frameDone(frame->number, frame->time);
+        }
+        sequence.finish();
+    }
+    return sequence.take();
+}
+
+/// What the meshes of a run have in all, such as "8000 vertices and 16000 triangles in the last mesh".
+std::string meshLine(const Json& mesh) {
+    const Json& frames = mesh["frames"];
+    if (frames.empty()) return "no mesh had to be made";
+    const Json& last = frames.back();
+    return fmt::format("{} vertices, {} triangles and {:.4g} m^3 in the last mesh", last["vertices"].get<std::size_t>(),
+                       last["triangles"].get<std::size_t>(), last["volume"].get<double>());
+}
+
+void mesh(MeshOptions options) {
+    const scenes::Scene scene = load(options.scene);
+    const FrameList frames = frameList(options.frames, scenes::frameCount(scene));
+    const std::string name = runName(options.scene);
+    constexpr std::string_view kSuffix = "-mesh";
+    std::string& folder = options.folder.path;
+    if (folder.empty())
+        folder = (fs::path("out") / (render::shortenedName(name, kSuffix.size()) + std::string(kSuffix))).string();
+
+    requireSeparate({scene.files, {}, {{"-o", folder, isRunFile}}});
+    const FrameMesher canMesh(scene, options.mesh);
+    warnOfStart(options.scene, scene, threadCount(options.run));
+    tellOfMetaballs(scene, options.run);
+    FinishedRun run;
+    onThreads(threadCount(options.run), [&] { run = meshFrames(scene, frames, options, name); });
+    const RunReport& report = run.report;
+    requireComplete(report, folder);
+    printResult(options.run, {{"event", "done"}, {"folder", folder}, {"run", run.json}},
+                fmt::format("{} frames in {}\n{}\n{} particles, {} steps, {:.1f} s, state {}\n{}", report.frames,
+                            folder, meshLine(report.mesh), run.simulation.particles.count(), run.simulation.steps.count,
+                            report.seconds.all, report.stateHash, troubleLine(scene, run.simulation)));
+}
+
+}  // namespace
+
+void addMeshCommand(CLI::App& program) {
+    CLI::App& command =
+        *program.add_subcommand("mesh", "the surface of metaballs: one closed mesh a frame, and run.json");
+    const auto options = std::make_shared<MeshOptions>();
+    addTo(command, options->scene);
+    addStrictFlag(command, options->scene);
+    addTo(command, options->folder, "folder for frames and run.json (default: out/NAME-mesh)");
+    command.add_option("--frames", options->frames, std::string("write only ") + kFrameListHelp)->type_name("FRAMES");
+    command
+        .add_option("--cell", options->mesh.cell,
+                    "length of the triangles' sides, in radii of the smallest particles (default: 0.5)")
+        ->check(numberFrom(0.05, 1.0))
+        ->type_name("RADII");
+    command
+        .add_option(
+            "--format", options->mesh.format,
+            "ply: normals, colors and velocities; obj: without velocities; vdb: signed distances (default: ply)")
+        ->check(CLI::IsMember(kMeshFormats));
+    addTo(command, options->run);
+    command.footer(
+        "The mesh is of the metaballs of look.metaball_reach and look.skin, whatever look.style is.\n"
+        "docs/meshes.md says how other programs read it.\n"
+        "Example: globular mesh liquid -o out/mesh --frames 0-119 --set look.skin=smooth");
+    command.callback([options] { mesh(*options); });
+}
+
+}  // namespace tools
