@@ -54,8 +54,8 @@ const std::map<std::string, std::vector<std::string>> kRooms = {
       "render/compare", "render/picture"}},
     {"scenes", {"scenes/view", "scenes/build", "scenes/schema", "scenes/model", "scenes/particles", "scenes/text"}},
     {"studies",
-     {"studies/accuracy", "studies/stability", "studies/scaling", "studies/bench", "studies/pictures", "studies/oracle",
-      "studies/common"}},
+     {"studies/accuracy", "studies/stability", "studies/scaling", "studies/bench", "studies/meshes", "studies/pictures",
+      "studies/oracle", "studies/common"}},
     {"tools",
      {"tools", "tools/commands", "tools/pages", "tools/compare", "tools/mesh", "tools/run", "tools/frames",
       "tools/system"}}};
@@ -138,6 +138,9 @@ std::string openGlVerdict(const Include& include) {
     return "";
 }
 
+/// The files that may include OpenVDB, which may be missing: one source of the renderer, and what reads its files back.
+const std::set<std::string> kWithOpenVdb = {"render/mesh/isosurface_openvdb.cpp", "tests/render/mesh_vdb_test.cpp"};
+
 /// Why an include is wrong; empty if it is not.
 std::string verdict(const Include& include) {
     const std::string target = include.target.substr(0, include.target.find('/'));
@@ -147,6 +150,8 @@ std::string verdict(const Include& include) {
     if (include.target.find("..") != std::string::npos) return "paths start at the root, not at ..";
     if (const std::string wrongRoom = roomVerdict(include); !wrongRoom.empty()) return wrongRoom;
     if (const std::string needsOpenGl = openGlVerdict(include); !needsOpenGl.empty()) return needsOpenGl;
+    if (target == "openvdb" && kWithOpenVdb.count(include.file) == 0)
+        return include.file + " must not include OpenVDB, which may be missing";
     const std::string refusal = include.folder + "/ must not include <" + include.target + ">";
     if (const auto libraries = kLibraries.find(include.folder); libraries != kLibraries.end()) {
         // Without a slash and with .h: the system's C headers.
@@ -213,6 +218,13 @@ TEST_CASE("OpenGL outside its room is noticed", "[layering]") {
     CHECK(verdict({"render", "render/opengl/context/context.h", 1, "render/opengl/context/device.h"}) == "");
     CHECK(verdict({"render", "render/opengl/context/context_none.cpp", 1, "render/opengl/context/context_native.h"}) !=
           "");
+}
+
+TEST_CASE("OpenVDB outside its file is noticed", "[layering]") {
+    CHECK(verdict({"render", "render/mesh/isosurface_openvdb.cpp", 1, "openvdb/openvdb.h"}) == "");
+    CHECK(verdict({"render", "render/mesh/surface_mesh.cpp", 1, "openvdb/openvdb.h"}) != "");
+    CHECK(verdict({"tools", "tools/commands/mesh_command.cpp", 1, "openvdb/openvdb.h"}) != "");
+    CHECK(verdict({"render", "render/prepare/skin.cpp", 1, "render/mesh/surface_mesh.h"}) != "");
 }
 
 TEST_CASE("A wrong arrow is noticed", "[layering]") {

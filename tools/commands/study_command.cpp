@@ -91,6 +91,7 @@ void addStudyCommand(CLI::App& program) {
     study.require_subcommand(1);
     study.footer("Example: globular study accuracy liquid -o out/accuracy");
     addStudyAccuracy(study);
+    addStudyMeshes(study);
     addStudyPictures(study);
     addStudyScaling(study);
     addStudyStability(study);

@@ -12,6 +12,7 @@
 namespace tools {
 
 void addStudyAccuracy(CLI::App& study);
+void addStudyMeshes(CLI::App& study);
 void addStudyPictures(CLI::App& study);
 void addStudyScaling(CLI::App& study);
 void addStudyStability(CLI::App& study);

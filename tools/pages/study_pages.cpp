@@ -156,6 +156,17 @@ std::string picturesPage(const PictureResults& results, const std::string& comma
     return htmlPage("globular: what pictures cost and how exact they are", body);
 }
 
+std::string meshesPage(const std::vector<studies::MeshRow>& rows, std::size_t particles, const std::string& command) {
+    std::string body = fmt::format(
+        "<p>Made by <code>{}</code>. The surface of metaballs of a dam break of {} particles as a mesh: the length of "
+        "the cell, in particle radii; the size of the mesh and of its PLY file; the median time to make it; how far "
+        "vertices and the middles of triangles are from the exact surface, by rays of the oracle along their normals; "
+        "and the volume of the mesh of a level pool over its particles' cells.</p>\n",
+        escaped(command), particles);
+    body += csvHtml(studies::meshesCsv(rows));
+    return htmlPage("globular: what meshes cost and how exact they are", body);
+}
+
 std::string scalingPage(const ScalingResults& results, const std::string& command) {
     std::string body = fmt::format(
         "<p>Made by <code>{}</code>. Milliseconds of one step: in the scenes of the paper's figures of 0.01 s, as the "

@@ -6,6 +6,7 @@
 
 #include "studies/accuracy/accuracy.h"
 #include "studies/accuracy/whole_scene.h"
+#include "studies/meshes/meshes.h"
 #include "studies/pictures/pictures.h"
 #include "studies/scaling/scaling.h"
 #include "studies/stability/stability.h"
@@ -47,6 +48,8 @@ struct ScalingResults {
 std::string accuracyPage(const std::vector<AccuracySection>& sections, const AccuracyRun& run);
 /// The page of `globular study accuracy --whole`.
 std::string wholePage(const std::vector<studies::WholeScene>& scenes, const AccuracyRun& run);
+/// @param particles  number of particles in the dam break that was meshed
+std::string meshesPage(const std::vector<studies::MeshRow>& rows, std::size_t particles, const std::string& command);
 std::string picturesPage(const PictureResults& results, const std::string& command);
 std::string scalingPage(const ScalingResults& results, const std::string& command);
 /// The results of the stability study as a table, with a row for each hard case.
