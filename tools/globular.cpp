@@ -12,6 +12,7 @@
 #endif
 
 #include "engine/run/advance.h"
+#include "render/mesh/isosurface.h"
 #include "render/picture/system_error.h"
 #include "scenes/text/input_error.h"
 #include "tools/commands/commands.h"
@@ -32,6 +33,18 @@ void keepFreedMemory() {
     mallopt(M_MMAP_THRESHOLD, 32 << 20);  // size of blocks, bytes; the largest that glibc accepts
     mallopt(M_TRIM_THRESHOLD, 256 << 20);
 #endif
+}
+
+/// What --version prints: the version, and which optional libraries are built in.
+std::string versionText() {
+#ifdef RENDER_HAS_OPENGL
+    constexpr const char* kOpenGl = "with OpenGL";
+#else
+    constexpr const char* kOpenGl = "without OpenGL";
+#endif
+    const std::string openVdb = render::openVdbVersion();
+    return fmt::format("globular " GLOBULAR_VERSION "\n{}, {}", kOpenGl,
+                       openVdb.empty() ? "without OpenVDB" : "with OpenVDB " + openVdb);
 }
 
 std::string licenses() {
@@ -80,7 +93,7 @@ int main(int argc, char** argv) {
     tools::ensureTemporaryFolder();
     CLI::App program("turns a scene file into an animation of globular dynamics", "globular");
     program.require_subcommand(0, 1);
-    program.set_version_flag("--version", "globular " GLOBULAR_VERSION, "print the version");
+    program.set_version_flag("--version", versionText, "print the version, and which optional libraries are built in");
     // CLI11 prints the text of a CallForVersion exception and nothing else.
     program.add_flag_callback(
         "--licenses", [] { throw CLI::CallForVersion(licenses(), CLI::ExitCodes::Success); },

@@ -17,6 +17,10 @@ namespace render {
 /// The version of OpenVDB that is built in, such as "10.0.1"; empty without it.
 std::string openVdbVersion();
 
+/// What is wrong in a build without it.
+inline constexpr const char* kNoOpenVdb =
+    "this build has no OpenVDB, which meshes need; install libopenvdb-dev and libboost-dev, then build again";
+
 /// Four vertices each, counterclockwise as seen from outside. The mesh is closed, but more than two quads may meet at
 /// an edge.
 struct QuadMesh {

@@ -6,7 +6,7 @@ namespace render {
 namespace {
 
 [[noreturn]] void fail() {
-    throw SystemError("this build has no OpenVDB, which meshes need (Debian: libopenvdb-dev, then build again)");
+    throw SystemError(kNoOpenVdb);
 }
 
 }  // namespace

@@ -18,6 +18,8 @@
 #include "render/mesh/separate_sheets.h"
 #include "render/mesh/surface_mesh.h"
 #include "studies/oracle/oracle.h"
+#include "studies/pictures/level_pool.h"
+#include "studies/pictures/pictures.h"
 #include "tests/render/pictures.h"
 
 using namespace pictures;
@@ -115,21 +117,12 @@ Distances distancesOf(const render::View& view, const TriangleMesh& mesh, double
     return distances;
 }
 
-/// A pool that fills a box, of particles on a lattice with a spacing of 1 m, jittered by up to 0.12 m.
-render::View pool(int side, int depth) {
+/// A cube of particles on a lattice with a spacing of 1 m.
+render::View block(int side) {
     render::View view;
     view.style = render::Style::metaballs;
-    view.field.reach = 2.5F;
-    view.field.skin = render::Skin::smooth;
-    std::mt19937 random(4);
-    const auto jitter = [&] { return 0.24F * (static_cast<float>(random() % 1001) / 1000.0F - 0.5F); };
-    for (int x = 0; x < side; ++x)
-        for (int y = 0; y < depth; ++y)
-            for (int z = 0; z < side; ++z) {
-                const glm::vec3 at(static_cast<float>(x) + jitter(), static_cast<float>(y) + jitter(),
-                                   static_cast<float>(z) + jitter());
-                view.particles.push_back({at, 0.658F, glm::vec3(0.2F, 0.4F, 0.8F)});
-            }
+    for (int k = 0; k < side * side * side; ++k)
+        view.particles.push_back({glm::vec3(k % side, k / side % side, k / side / side), 0.658F, glm::vec3(0.5F)});
     return view;
 }
 
@@ -240,11 +233,19 @@ TEST_CASE("Fields with every kind of touching surfaces give closed meshes", "[me
 
 TEST_CASE("A level pool keeps its volume", "[mesh]") {
     if (lacksOpenVdb()) return;
-    const render::View view = pool(24, 6);
-    const TriangleMesh mesh = meshOf(view, 0.5 * 0.658);
-    checkClosed(mesh);
-    // `globular study pictures` measures 0.996 by the oracle's field, of one lattice cell a particle.
-    CHECK(render::volumeOf(mesh) / static_cast<double>(view.particles.size()) == Approx(0.996).margin(0.005));
+    render::View appearance;
+    appearance.style = render::Style::metaballs;
+    appearance.field = {3.0F, render::Skin::smooth};
+    const render::View view = studies::levelPool(appearance);
+    const auto count = static_cast<double>(view.particles.size());
+    // Of one lattice cell a particle. `globular study pictures` finds 0.996 by the oracle's field at points that are
+    // 0.25 radii apart, which is known to about a tenth of that over the depth of the pool: 0.003.
+    CHECK(studies::fieldVolume(view, 0.25) / count == Approx(0.996).margin(0.001));
+    for (const double cell : {0.5, 0.25}) {
+        const TriangleMesh mesh = meshOf(view, cell * 0.658);
+        checkClosed(mesh);
+        CHECK(render::volumeOf(mesh) / count == Approx(0.996).margin(0.004));
+    }
 }
 
 TEST_CASE("A mesh has the same bytes for any number of threads", "[mesh]") {
@@ -283,7 +284,7 @@ TEST_CASE("Blocks are kept at the surface alone", "[mesh]") {
     const render::SampledField both = render::sampleNearSurface(few, render::surfaceThreshold(drops.field));
     CHECK(both.blocks.size() <= few.blocks().size());
     // A cube of balls: most blocks are inside as a whole and take no values.
-    const render::View full = pool(30, 30);
+    const render::View full = block(30);
     const render::BallBlocks balls(full, 0.5 * 0.658);
     const render::SampledField field = render::sampleNearSurface(balls, render::surfaceThreshold(full.field));
     // Along a side lie 12 blocks; at most the outer three layers of each side are near the surface.

@@ -44,10 +44,7 @@ const char* nameOf(render::Skin skin) {
 
 FrameMesher::FrameMesher(const scenes::Scene& scene, const MeshSettings& settings)
     : scene_(scene), settings_(settings), origin_(vectorOf(scenes::viewOrigin(scene, 0.0))) {
-    if (render::openVdbVersion().empty())
-        throw render::SystemError(
-            "this build has no OpenVDB, which meshes need; install libopenvdb-dev and libboost-dev, "
-            "then build again");
+    if (render::openVdbVersion().empty()) throw render::SystemError(render::kNoOpenVdb);
     const double radius = cellRadius(scene);
     cell_ = settings.cell * (radius < std::numeric_limits<double>::infinity() ? radius : 1.0);
 }
