@@ -366,8 +366,8 @@ TEST_CASE("--json prints one object a line", "[tools]") {
 }
 
 TEST_CASE("Every command explains itself with an example", "[tools]") {
-    for (const char* command :
-         {"render", "strip", "simulate", "figures", "video", "compare", "approve", "check", "scenes", "schema"}) {
+    for (const char* command : {"render", "strip", "simulate", "mesh", "figures", "video", "compare", "approve",
+                                "check", "scenes", "schema"}) {
         const auto help = run(std::string(command) + " --help");
         INFO(command);
         CHECK(help.code == 0);
