@@ -13,7 +13,7 @@
 #include "tools/commands/commands.h"
 #include "tools/frames/chunk.h"
 #include "tools/frames/frame_names.h"
-#include "tools/frames/state_folder.h"
+#include "tools/frames/simulated_states.h"
 #include "tools/run/frame_folder.h"
 #include "tools/run/render_loop.h"
 #include "tools/run/run_warnings.h"
@@ -68,7 +68,7 @@ std::string summaryOf(const RenderOptions& options, const scenes::Scene& scene, 
 
 /// Checks the outputs before anything is done.
 /// @param states  that are drawn; nullptr: none
-void checkOutputs(const RenderOptions& options, const scenes::Scene& scene, const StateFolder* states) {
+void checkOutputs(const RenderOptions& options, const scenes::Scene& scene, const SimulatedStates* states) {
     CommandFiles files{scene.files, {}, {}};
     if (states != nullptr)
         for (const fs::path& file : filesIn(states->path()))
@@ -121,7 +121,7 @@ void render(RenderOptions options) {
                   pipesFrames(options),
                   options.estimatesErrors};
     if (job.pipesFrames) job.folder.reset();
-    std::optional<StateFolder> states;
+    std::optional<SimulatedStates> states;
     if (!options.states.empty()) states.emplace(options.states, scene, sceneIdentity(scene), job.frames);
     if (states) job.states = &*states;
     if (states && states->version() != GLOBULAR_VERSION)

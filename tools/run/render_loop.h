@@ -8,7 +8,7 @@
 #include "render/picture/view.h"
 #include "scenes/model/scene.h"
 #include "tools/frames/frame_list.h"
-#include "tools/frames/state_folder.h"
+#include "tools/frames/simulated_states.h"
 #include "tools/run/options.h"
 #include "tools/run/run_report.h"
 #include "tools/system/progress.h"
@@ -17,11 +17,11 @@ namespace tools {
 
 struct RenderJob : DrawJob {
     FrameList frames;
-    std::optional<FolderOptions> folder;  ///< folder of frames and checkpoints; none: no frame becomes a file
-    std::string videoPath;                ///< path of the video, with its kind; empty: no video is made
-    bool pipesFrames = false;             ///< whether frames go to standard output, one PNG after the other
-    bool estimatesErrors = true;          ///< whether the error of a fixed step is estimated at some of the frames
-    const StateFolder* states = nullptr;  ///< where the particles of all frames come from; nullptr: a simulation
+    std::optional<FolderOptions> folder;      ///< folder of frames and checkpoints; none: no frame becomes a file
+    std::string videoPath;                    ///< path of the video, with its kind; empty: no video is made
+    bool pipesFrames = false;                 ///< whether frames go to standard output, one PNG after the other
+    bool estimatesErrors = true;              ///< whether the error of a fixed step is estimated at some of the frames
+    const SimulatedStates* states = nullptr;  ///< where the particles of all frames come from; nullptr: a simulation
 };
 
 /// Draws the frames of a job. If the simulation becomes unstable, the run ends after the frames before that. After a

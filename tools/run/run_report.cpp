@@ -174,7 +174,7 @@ Json runJson(const scenes::Scene& scene, FinishedRun& run) {
     return json;
 }
 
-Json drawnRunJson(const scenes::Scene& scene, const RunReport& report, const StateFolder& states) {
+Json drawnRunJson(const scenes::Scene& scene, const RunReport& report, const SimulatedStates& states) {
     Json json = programJson(scene, report);
     json["drawn_from"] = {{"states", states.path().string()}, {"version", states.version()}};
     json["particles"] = report.largestCount;

@@ -9,7 +9,7 @@
 #include "engine/error_control/error_samples.h"
 #include "engine/run/advance.h"
 #include "scenes/model/scene.h"
-#include "tools/frames/state_folder.h"
+#include "tools/frames/simulated_states.h"
 #include "tools/system/json.h"
 
 namespace tools {
@@ -85,7 +85,7 @@ Json sceneIdentity(const scenes::Scene& scene);
 Json runJson(const scenes::Scene& scene, FinishedRun& run);
 
 /// The content of run.json of a run that was drawn from states.
-Json drawnRunJson(const scenes::Scene& scene, const RunReport& report, const StateFolder& states);
+Json drawnRunJson(const scenes::Scene& scene, const RunReport& report, const SimulatedStates& states);
 
 /// Throws if a run ended early.
 /// @param folder  the folder of the run, for the message

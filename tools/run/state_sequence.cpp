@@ -11,7 +11,7 @@
 
 namespace tools {
 
-StateSequence::StateSequence(const scenes::Scene& scene, FrameList frames, const StateFolder& states,
+StateSequence::StateSequence(const scenes::Scene& scene, FrameList frames, const SimulatedStates& states,
                              FrameFolder* folder, Progress& progress)
     : FrameSource(folder, progress), scene_(scene), frames_(std::move(frames)), states_(states) {}
 

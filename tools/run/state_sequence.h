@@ -7,7 +7,7 @@
 
 #include "scenes/model/scene.h"
 #include "tools/frames/frame_list.h"
-#include "tools/frames/state_folder.h"
+#include "tools/frames/simulated_states.h"
 #include "tools/run/frame_source.h"
 
 namespace tools {
@@ -16,7 +16,7 @@ namespace tools {
 class StateSequence : public FrameSource {
  public:
     /// @param states, progress  must outlive the sequence
-    StateSequence(const scenes::Scene& scene, FrameList frames, const StateFolder& states, FrameFolder* folder,
+    StateSequence(const scenes::Scene& scene, FrameList frames, const SimulatedStates& states, FrameFolder* folder,
                   Progress& progress);
 
     /// Also returns nothing when a state cannot be read or is damaged.
@@ -30,7 +30,7 @@ class StateSequence : public FrameSource {
 
     const scenes::Scene& scene_;
     FrameList frames_;
-    const StateFolder& states_;
+    const SimulatedStates& states_;
     std::size_t next_ = 0;        ///< position in the list of frames
     std::exception_ptr failure_;  ///< why a state could not be read
 };

@@ -1,6 +1,6 @@
 // What a state is of is said twice: by the manifest of its folder, with the checksum of its file, and by the file
 // itself.
-#include "tools/frames/state_folder.h"
+#include "tools/frames/simulated_states.h"
 
 #include <fmt/format.h>
 
@@ -31,7 +31,8 @@ Json simulationOf(const Json& identity) {
 
 }  // namespace
 
-StateFolder::StateFolder(fs::path folder, const scenes::Scene& scene, const Json& identity, const FrameList& frames)
+SimulatedStates::SimulatedStates(fs::path folder, const scenes::Scene& scene, const Json& identity,
+                                 const FrameList& frames)
     : folder_(std::move(folder)), scene_(scene) {
     const fs::path path = folder_ / "manifest.json";
     if (!fs::exists(path))
@@ -46,7 +47,7 @@ StateFolder::StateFolder(fs::path folder, const scenes::Scene& scene, const Json
     requireFrames(frames);
 }
 
-void StateFolder::requireScene(const Json& identity) const {
+void SimulatedStates::requireScene(const Json& identity) const {
     if (!manifest_.identity.contains("simulation_hash"))
         throw scenes::InputError(folder_.string(),
                                  "its states are of an earlier version, which did not record what they are of");
@@ -60,7 +61,7 @@ void StateFolder::requireScene(const Json& identity) const {
                 different));
 }
 
-void StateFolder::requireFrames(const FrameList& frames) const {
+void SimulatedStates::requireFrames(const FrameList& frames) const {
     std::vector<int> missing;
     std::ranges::copy_if(frames.numbers, std::back_inserter(missing),
                          [&](int frame) { return manifest_.frames.count(frame) == 0 || !fs::exists(pathOf(frame)); });
@@ -71,16 +72,16 @@ void StateFolder::requireFrames(const FrameList& frames) const {
                     folder_.string(), listText(missing)));
 }
 
-fs::path StateFolder::pathOf(int frame) const {
+fs::path SimulatedStates::pathOf(int frame) const {
     return folder_ / kStateNames.fileName(frame);
 }
 
-std::string StateFolder::version() const {
+std::string SimulatedStates::version() const {
     const auto found = manifest_.identity.find("version");
     return found != manifest_.identity.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
-engine::Particles StateFolder::read(int frame) const {
+engine::Particles SimulatedStates::read(int frame) const {
     const fs::path path = pathOf(frame);
     const std::vector<std::uint8_t> bytes = readFile(path);
     if (checksumOf(bytes) != manifest_.frames.at(frame).checksum)

@@ -12,7 +12,7 @@
 
 namespace tools {
 
-class StateFolder {
+class SimulatedStates {
  public:
     /// Makes sure that the folder has states of some frames of a scene. Only their files' names are looked at; read()
     /// looks into them.
@@ -21,8 +21,8 @@ class StateFolder {
     /// @param identity  of the scene, as manifests have it
     /// @throws scenes::InputError if the folder has states of another scene, or of a version without such hashes
     /// @throws render::SystemError if the folder has no states, or not those of all frames, which are then named
-    StateFolder(std::filesystem::path folder, const scenes::Scene& scene, const Json& identity,
-                const FrameList& frames);
+    SimulatedStates(std::filesystem::path folder, const scenes::Scene& scene, const Json& identity,
+                    const FrameList& frames);
 
     /// Reads the state of one of the frames, bit for bit as it was.
     /// @throws render::SystemError if the file is not there or not the one that the manifest lists
