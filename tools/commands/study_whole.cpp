@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "engine/stepping/take_step.h"
 #include "scenes/build/read_scene.h"
 #include "scenes/text/input_error.h"
 #include "studies/accuracy/whole_scene.h"
