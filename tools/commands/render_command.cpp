@@ -2,8 +2,10 @@
 // frames, run.json and a video.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 
@@ -17,6 +19,7 @@
 #include "tools/run/frame_folder.h"
 #include "tools/run/render_loop.h"
 #include "tools/run/run_warnings.h"
+#include "tools/run/state_sequence.h"
 #include "tools/system/command_files.h"
 #include "tools/system/output_file.h"
 #include "tools/system/process.h"
@@ -70,9 +73,7 @@ std::string summaryOf(const RenderOptions& options, const scenes::Scene& scene, 
 /// @param states  that are drawn; nullptr: none
 void checkOutputs(const RenderOptions& options, const scenes::Scene& scene, const SimulatedStates* states) {
     CommandFiles files{scene.files, {}, {}};
-    if (states != nullptr)
-        for (const fs::path& file : filesIn(states->path()))
-            if (isRunFile(file)) files.inputs.push_back(file);
+    if (states != nullptr) std::ranges::copy(states->files(), std::back_inserter(files.inputs));
     if (!options.video.empty()) {
         requireVideoName("--video", options.video);
         files.outputs.push_back({"--video", options.video});
@@ -121,12 +122,8 @@ void render(RenderOptions options) {
                   pipesFrames(options),
                   options.estimatesErrors};
     if (job.pipesFrames) job.folder.reset();
-    std::optional<SimulatedStates> states;
-    if (!options.states.empty()) states.emplace(options.states, scene, sceneIdentity(scene), job.frames);
+    const std::optional<SimulatedStates> states = openStates(options.states, scene, job.frames);
     if (states) job.states = &*states;
-    if (states && states->version() != GLOBULAR_VERSION)
-        printWarning(fmt::format("the states in {} are of version {}; this version, {}, may simulate others",
-                                 options.states, states->version(), GLOBULAR_VERSION));
     checkOutputs(options, scene, job.states);
 
     // How the simulation starts is none of the concerns of a run that does not simulate.

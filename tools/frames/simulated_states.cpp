@@ -41,8 +41,9 @@ SimulatedStates::SimulatedStates(fs::path folder, const scenes::Scene& scene, co
                         "{}` writes them",
                         folder_.string(), folder_.string()));
     manifest_ = decodeManifest(readFile(path), path.string());
-    if (manifest_.identity.contains("size"))
-        throw scenes::InputError(folder_.string(), "it holds pictures; states are what `globular simulate` writes");
+    if (manifest_.identity.contains("size") || manifest_.identity.contains("mesh"))
+        throw scenes::InputError(folder_.string(),
+                                 "it holds pictures or meshes; states are what `globular simulate` writes");
     requireScene(identity);
     requireFrames(frames);
 }
@@ -74,6 +75,12 @@ void SimulatedStates::requireFrames(const FrameList& frames) const {
 
 fs::path SimulatedStates::pathOf(int frame) const {
     return folder_ / kStateNames.fileName(frame);
+}
+
+std::vector<fs::path> SimulatedStates::files() const {
+    std::vector<fs::path> files = filesIn(folder_);
+    std::erase_if(files, [](const fs::path& file) { return !isRunFile(file); });
+    return files;
 }
 
 std::string SimulatedStates::version() const {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "scenes/model/scene.h"
 #include "scenes/particles/particle_file.h"
@@ -32,6 +33,8 @@ class SimulatedStates {
     const std::string& stateHash(int frame) const { return manifest_.frames.at(frame).stateHash; }
 
     const std::filesystem::path& path() const { return folder_; }
+    /// All files in the folder that have the name of a run's file.
+    std::vector<std::filesystem::path> files() const;
     std::filesystem::path pathOf(int frame) const;
 
     /// Version of the program that has simulated the states.

@@ -99,6 +99,7 @@ Json programJson(const scenes::Scene& scene, const RunReport& report) {
     json["threads"] = report.threads;
     json["instruction_set"] = engine::simdInstructionSet();
     addTo(json, report.renderer);
+    if (!report.mesh.is_null()) json["mesh"] = report.mesh;
     return json;
 }
 
@@ -142,7 +143,6 @@ Json runJson(const scenes::Scene& scene, FinishedRun& run) {
     engine::Simulation& simulation = run.simulation;
     const RunReport& report = run.report;
     Json json = programJson(scene, report);
-    if (!report.mesh.is_null()) json["mesh"] = report.mesh;
     json["particles"] = engine::largestCount(simulation);
     json["births"] = engine::birthCount(simulation);
     json["refused_births"] = engine::refusalCount(simulation);

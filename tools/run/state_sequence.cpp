@@ -8,8 +8,19 @@
 #include <utility>
 
 #include "tools/system/memory.h"
+#include "tools/system/process.h"
 
 namespace tools {
+
+std::optional<SimulatedStates> openStates(const std::string& folder, const scenes::Scene& scene,
+                                          const FrameList& frames) {
+    if (folder.empty()) return std::nullopt;
+    std::optional<SimulatedStates> states(std::in_place, folder, scene, sceneIdentity(scene), frames);
+    if (states->version() != GLOBULAR_VERSION)
+        printWarning(fmt::format("the states in {} are of version {}; this version, {}, may simulate others", folder,
+                                 states->version(), GLOBULAR_VERSION));
+    return states;
+}
 
 StateSequence::StateSequence(const scenes::Scene& scene, FrameList frames, const SimulatedStates& states,
                              FrameFolder* folder, Progress& progress)

@@ -1,9 +1,11 @@
-// The states of an earlier simulation, one after the other: the frames of `render --states`.
+// The states of an earlier simulation, one after the other: the frames of `render --states` and `mesh
+// --states`.
 #pragma once
 
 #include <cstddef>
 #include <exception>
 #include <optional>
+#include <string>
 
 #include "scenes/model/scene.h"
 #include "tools/frames/frame_list.h"
@@ -11,6 +13,12 @@
 #include "tools/run/frame_source.h"
 
 namespace tools {
+
+/// The states of a scene that `--states` names; nothing if it names none. Those of another version of the program are
+/// warned of on standard error.
+/// @throws as the constructor of SimulatedStates
+std::optional<SimulatedStates> openStates(const std::string& folder, const scenes::Scene& scene,
+                                          const FrameList& frames);
 
 /// Reads the states of the frames of a run.
 class StateSequence : public FrameSource {
