@@ -6,6 +6,7 @@
 #include "render/mesh/isosurface.h"
 #include "tests/catch.h"
 #include "tests/tools/early_ends.h"
+#include "tests/tools/moving_scene.h"
 
 namespace fs = std::filesystem;
 using program::Folder;
@@ -144,4 +145,27 @@ TEST_CASE("A build without OpenVDB says so before it simulates", "[mesh]") {
     CHECK(outcome.err.find("this build has no OpenVDB") != std::string::npos);
     CHECK(program::lineCount(outcome.err) == 1);
     CHECK_FALSE(fs::exists(folder / "a"));
+}
+
+TEST_CASE("Meshes of states are those of a run that simulates, byte for byte", "[mesh]") {
+    if (lacksOpenVdb()) return;
+    const program::MovingScene scene;
+    const auto mesh = [&](const std::string& name, const std::string& more) {
+        return run("mesh " + scene.file + " --frames 0-19:6 --quiet -o " + (scene.folder / name).string() + " " + more);
+    };
+    REQUIRE(mesh("direct", "").code == 0);
+    REQUIRE(mesh("again", "--states " + scene.states).code == 0);
+    const auto direct = meshesIn(scene.folder / "direct");
+    CHECK(direct.size() == 4);
+    CHECK(meshesIn(scene.folder / "again") == direct);
+    const auto json = scene.json("again/run.json");
+    CHECK(json["drawn_from"]["states"] == scene.states);
+    CHECK(json["mesh"]["frames"] == scene.json("direct/run.json")["mesh"]["frames"]);
+
+    // A damaged state ends the run after the meshes before it; meshes are no states; states are not overwritten.
+    program::writeText(fs::path(scene.states) / "particles-00012.ply", "ply");
+    CHECK(mesh("damaged", "--states " + scene.states).code == 1);
+    CHECK(meshesIn(scene.folder / "damaged").size() == 2);
+    CHECK(mesh("other", "--states " + (scene.folder / "direct").string()).code == 2);
+    CHECK(mesh("states", "--overwrite --states " + scene.states).code == 2);
 }

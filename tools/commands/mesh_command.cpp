@@ -1,8 +1,10 @@
-// globular mesh: simulates a scene, and writes the surface of its metaballs as a closed mesh for each frame.
+// globular mesh: simulates a scene, or reads the states that an earlier run has left, and writes the surface of its
+// metaballs as a closed mesh for each frame.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "tools/mesh/frame_mesh.h"
 #include "tools/run/frame_sequence.h"
 #include "tools/run/run_warnings.h"
+#include "tools/run/state_sequence.h"
 #include "tools/run/threads.h"
 #include "tools/system/command_files.h"
 #include "tools/system/process.h"
@@ -26,6 +29,7 @@ struct MeshOptions {
     SceneOptions scene;
     FolderOptions folder;
     std::string frames;
+    std::string states;  ///< folder of states to mesh; empty: the scene is simulated
     MeshSettings mesh;
 };
 
@@ -49,41 +53,46 @@ void tellOfMetaballs(const scenes::Scene& scene, const RunOptions& options) {
 }
 
 /// The work on one frame of a run: its mesh, which is stored where it is not there yet.
-void meshFrame(const SequencedFrame& frame, const FrameMesher& mesher, FrameSequence& sequence, Progress& progress) {
-    RunReport& report = sequence.report();
+void meshFrame(const SequencedFrame& frame, const FrameMesher& mesher, FrameSource& source, Progress& progress) {
+    RunReport& report = source.report();
     FrameMesh mesh;
     if (frame.isWanted && !frame.isKept) {
         const Stopwatch watch(report.seconds.drawing);
         const Progress::Work work(progress, fmt::format("meshing frame {}", frame.number));
-        mesh = mesher.meshOf(sequence.simulation(), frame.number);
+        mesh = mesher.meshOf(source.simulation(), frame.number);
         report.mesh["frames"].push_back(mesh.facts);
     }
     const Stopwatch watch(report.seconds.encoding);
-    sequence.store(frame, {reinterpret_cast<const std::uint8_t*>(mesh.bytes.data()), mesh.bytes.size()});
+    source.store(frame, {reinterpret_cast<const std::uint8_t*>(mesh.bytes.data()), mesh.bytes.size()});
 }
 
+/// @param states  whose frames are meshed; nullptr: the scene is simulated
 FinishedRun meshFrames(const scenes::Scene& scene, const FrameList& frames, const MeshOptions& options,
-                       const std::string& title) {
+                       const SimulatedStates* states) {
     const FrameMesher mesher(scene, options.mesh);
-    Progress progress(title, frames.count(), options.run.verbosity());
+    Progress progress(runName(options.scene), frames.count(), options.run.verbosity());
     Json identity = sceneIdentity(scene);
     identity["mesh"] = mesher.identity();
     FrameFolder folder(options.folder, {mesher.names()}, frames, identity);
-    FrameSequence sequence(scene, frames, {&folder, false}, progress);
-    RunReport& report = sequence.report();
+    std::unique_ptr<FrameSource> source;
+    if (states != nullptr)
+        source = std::make_unique<StateSequence>(scene, frames, *states, &folder, progress);
+    else
+        source = std::make_unique<FrameSequence>(scene, frames, SequenceOptions{&folder, false}, progress);
+    RunReport& report = source->report();
     report.threads = threadCount(options.run);
     report.mesh = mesher.description();
     {
         const Stopwatch total(report.seconds.all);
-        while (const auto frame = sequence.next()) {
-            meshFrame(*frame, mesher, sequence, progress);
+        while (const auto frame = source->next()) {
+            meshFrame(*frame, mesher, *source, progress);
             if (!frame->isWanted) continue;
             ++report.frames;
             progress.frameDone(frame->number, frame->time);
         }
-        sequence.finish();
+        source->finish();
     }
-    return sequence.take();
+    return source->take();
 }
 
 /// What the meshes of a run have in all, such as "8000 vertices and 16000 triangles in the last mesh".
@@ -95,6 +104,18 @@ std::string meshLine(const Json& mesh) {
                        last["triangles"].get<std::size_t>(), last["volume"].get<double>());
 }
 
+std::string summaryOf(const MeshOptions& options, const scenes::Scene& scene, const FinishedRun& run) {
+    const RunReport& report = run.report;
+    const std::string meshes =
+        fmt::format("{} frames in {}\n{}\n", report.frames, options.folder.path, meshLine(report.mesh));
+    if (!options.states.empty())
+        return meshes + fmt::format("from states in {}: up to {} particles, {:.1f} s, state {}\n", options.states,
+                                    report.largestCount, report.seconds.all, report.stateHash);
+    return meshes + fmt::format("{} particles, {} steps, {:.1f} s, state {}\n{}", run.simulation.particles.count(),
+                                run.simulation.steps.count, report.seconds.all, report.stateHash,
+                                troubleLine(scene, run.simulation));
+}
+
 void mesh(MeshOptions options) {
     const scenes::Scene scene = load(options.scene);
     const FrameList frames = frameList(options.frames, scenes::frameCount(scene));
@@ -104,18 +125,22 @@ void mesh(MeshOptions options) {
     if (folder.empty())
         folder = (fs::path("out") / (render::shortenedName(name, kSuffix.size()) + std::string(kSuffix))).string();
 
-    requireSeparate({scene.files, {}, {{"-o", folder, isRunFile}}});
+    const std::optional<SimulatedStates> states = openStates(options.states, scene, frames);
+    CommandFiles files{scene.files, {}, {{"-o", folder, isRunFile}}};
+    if (states) std::ranges::copy(states->files(), std::back_inserter(files.inputs));
+    requireSeparate(files);
     const FrameMesher canMesh(scene, options.mesh);
-    warnOfStart(options.scene, scene, threadCount(options.run));
+    if (!states)
+        warnOfStart(options.scene, scene, threadCount(options.run));
+    else if (options.scene.isStrict)
+        refuse(scene.warnings);
     tellOfMetaballs(scene, options.run);
     FinishedRun run;
-    onThreads(threadCount(options.run), [&] { run = meshFrames(scene, frames, options, name); });
+    onThreads(threadCount(options.run), [&] { run = meshFrames(scene, frames, options, states ? &*states : nullptr); });
     const RunReport& report = run.report;
     requireComplete(report, folder);
     printResult(options.run, {{"event", "done"}, {"folder", folder}, {"run", run.json}},
-                fmt::format("{} frames in {}\n{}\n{} particles, {} steps, {:.1f} s, state {}\n{}", report.frames,
-                            folder, meshLine(report.mesh), run.simulation.particles.count(), run.simulation.steps.count,
-                            report.seconds.all, report.stateHash, troubleLine(scene, run.simulation)));
+                summaryOf(options, scene, run));
 }
 
 }  // namespace
@@ -128,6 +153,10 @@ void addMeshCommand(CLI::App& program) {
     addStrictFlag(command, options->scene);
     addTo(command, options->folder, "folder for frames and run.json (default: out/NAME-mesh)");
     command.add_option("--frames", options->frames, std::string("write only ") + kFrameListHelp)->type_name("FRAMES");
+    command
+        .add_option("--states", options->states,
+                    "make meshes of the states that `globular simulate` has written of this scene, without simulating")
+        ->type_name("DIR");
     command
         .add_option("--cell", options->mesh.cell,
                     "length of the triangles' sides, in radii of the smallest particles (default: 0.5)")
@@ -142,7 +171,8 @@ void addMeshCommand(CLI::App& program) {
     command.footer(
         "The mesh is of the metaballs of look.metaball_reach and look.skin, whatever look.style is.\n"
         "docs/meshes.md says how other programs read it.\n"
-        "Example: globular mesh liquid -o out/mesh --frames 0-119 --set look.skin=smooth");
+        "Example: globular mesh liquid -o out/mesh --frames 0-119 --set look.skin=smooth\n"
+        "         globular mesh liquid --states out/liquid-states -o out/fine --cell 0.25");
     command.callback([options] { mesh(*options); });
 }
 
