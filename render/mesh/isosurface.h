@@ -1,5 +1,5 @@
-// The door to OpenVDB, which only isosurface_openvdb.cpp includes. In a build without it (isosurface_none.cpp)
-// openVdbVersion() is empty, and the other functions throw.
+// The door to OpenVDB, which only isosurface_openvdb.cpp includes. In a build without it, and where it cannot be
+// loaded, openVdbVersion() is empty, and the other functions throw.
 #pragma once
 
 #include <array>
@@ -14,12 +14,11 @@
 
 namespace render {
 
-/// The version of OpenVDB that is built in, such as "10.0.1"; empty without it.
+/// The version of OpenVDB that is there, such as "10.0.1"; empty without it.
 std::string openVdbVersion();
 
-/// What is wrong in a build without it.
-inline constexpr const char* kNoOpenVdb =
-    "this build has no OpenVDB, which meshes need; install libopenvdb-dev and libboost-dev, then build again";
+/// @throws SystemError if there is no OpenVDB
+void requireOpenVdb();
 
 /// Four vertices each, counterclockwise as seen from outside. The mesh is closed, but more than two quads may meet at
 /// an edge.
@@ -30,7 +29,7 @@ struct QuadMesh {
 
 /// The surface where a sampled field is zero, with one vertex or more in each cell that it crosses. The result is the
 /// same for any number of threads.
-/// @throws SystemError in a build without OpenVDB
+/// @throws SystemError if there is no OpenVDB
 QuadMesh isosurfaceOf(const SampledField& field);
 
 /// What a .vdb file says beside the distances.
@@ -45,7 +44,7 @@ struct LevelSetLabel {
 /// The bytes of a .vdb file with the level set of a closed mesh: a grid "surface" of signed distances in meters,
 /// negative inside, within three voxels of the surface, with a transform in meters and the metadata "time" (double, s),
 /// "frame" (int32) and "scene_hash" (string). The same mesh gives the same bytes for any number of threads.
-/// @throws SystemError in a build without OpenVDB
+/// @throws SystemError if there is no OpenVDB
 std::string encodeLevelSet(const TriangleMesh& mesh, const LevelSetLabel& label);
 
 }  // namespace render

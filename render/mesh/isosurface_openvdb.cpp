@@ -1,6 +1,6 @@
-// Meshes and .vdb files by OpenVDB. The only file that includes it: it takes as long to compile as all others of its
-// room together.
-#include "render/mesh/isosurface.h"
+// Meshes and .vdb files by OpenVDB: the module that isosurface.cpp loads. The only file that includes OpenVDB: it takes
+// as long to compile as all others of its room together.
+#include "render/mesh/openvdb_module.h"
 
 #include <openvdb/version.h>
 // What is used of OpenVDB is compiled here, with the project's own flags: instances in the system's library may be
@@ -66,13 +66,7 @@ void makeRepeatable(std::string& file) {
     }
 }
 
-}  // namespace
-
-std::string openVdbVersion() {
-    return OPENVDB_LIBRARY_VERSION_STRING;
-}
-
-QuadMesh isosurfaceOf(const SampledField& field) {
+QuadMesh meshQuads(const SampledField& field) {
     QuadMesh mesh;
     if (field.blocks.empty()) return mesh;
     const openvdb::FloatGrid::Ptr grid = gridOf(field);
@@ -87,7 +81,7 @@ QuadMesh isosurfaceOf(const SampledField& field) {
     return mesh;
 }
 
-std::string encodeLevelSet(const TriangleMesh& mesh, const LevelSetLabel& label) {
+std::string encodeGrid(const TriangleMesh& mesh, const LevelSetLabel& label) {
     openvdb::initialize();
     const auto transform = openvdb::math::Transform::createLinearTransform(label.cell);
     transform->postTranslate({label.origin.x, label.origin.y, label.origin.z});
@@ -111,4 +105,7 @@ std::string encodeLevelSet(const TriangleMesh& mesh, const LevelSetLabel& label)
     return file;
 }
 
+}  // namespace
 }  // namespace render
+
+const render::OpenVdbModule globularOpenVdb = {OPENVDB_LIBRARY_VERSION_STRING, render::meshQuads, render::encodeGrid};

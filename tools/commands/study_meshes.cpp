@@ -37,7 +37,7 @@ void reportRow(const MeshesOptions& options, const studies::MeshRow& row) {
 }
 
 void study(const MeshesOptions& options) {
-    if (render::openVdbVersion().empty()) throw render::SystemError(render::kNoOpenVdb);
+    render::requireOpenVdb();
     prepareFolder(options, {});
     studies::MeshStudySettings settings;
     if (options.quick) settings = {2000, {1.0, 0.5}, 1, 2000};

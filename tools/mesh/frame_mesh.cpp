@@ -44,7 +44,7 @@ const char* nameOf(render::Skin skin) {
 
 FrameMesher::FrameMesher(const scenes::Scene& scene, const MeshSettings& settings)
     : scene_(scene), settings_(settings), origin_(vectorOf(scenes::viewOrigin(scene, 0.0))) {
-    if (render::openVdbVersion().empty()) throw render::SystemError(render::kNoOpenVdb);
+    render::requireOpenVdb();
     const double radius = cellRadius(scene);
     cell_ = settings.cell * (radius < std::numeric_limits<double>::infinity() ? radius : 1.0);
 }
