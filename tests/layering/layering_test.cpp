@@ -57,8 +57,8 @@ const std::map<std::string, std::vector<std::string>> kRooms = {
      {"studies/accuracy", "studies/stability", "studies/scaling", "studies/bench", "studies/meshes", "studies/pictures",
       "studies/oracle", "studies/common"}},
     {"tools",
-     {"tools", "tools/commands", "tools/pages", "tools/compare", "tools/mesh", "tools/run", "tools/frames",
-      "tools/system"}}};
+     {"tools", "tools/commands/study", "tools/commands", "tools/pages", "tools/compare", "tools/mesh", "tools/run",
+      "tools/frames", "tools/system"}}};
 
 /// The layout shows the architecture only as long as a room fits on a screen.
 constexpr std::size_t kMostFilesInRoom = 25;

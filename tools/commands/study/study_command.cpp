@@ -1,5 +1,5 @@
 // globular study: measures the program itself, with one subcommand for each question.
-#include "tools/commands/study_command.h"
+#include "tools/commands/study/study_command.h"
 
 #include <fmt/format.h>
 

@@ -10,7 +10,7 @@
 #include "scenes/build/library.h"
 #include "scenes/build/read_scene.h"
 #include "studies/stability/stability.h"
-#include "tools/commands/study_command.h"
+#include "tools/commands/study/study_command.h"
 #include "tools/pages/study_pages.h"
 #include "tools/run/threads.h"
 #include "tools/system/output_file.h"

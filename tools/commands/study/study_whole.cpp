@@ -9,7 +9,7 @@
 #include "scenes/build/read_scene.h"
 #include "scenes/text/input_error.h"
 #include "studies/accuracy/whole_scene.h"
-#include "tools/commands/study_accuracy.h"
+#include "tools/commands/study/study_accuracy.h"
 #include "tools/pages/study_pages.h"
 #include "tools/run/threads.h"
 #include "tools/system/output_file.h"

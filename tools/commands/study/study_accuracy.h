@@ -6,7 +6,7 @@
 
 #include "scenes/model/scene.h"
 #include "studies/accuracy/reference.h"
-#include "tools/commands/study_command.h"
+#include "tools/commands/study/study_command.h"
 
 namespace tools {
 

@@ -8,7 +8,7 @@
 #include "render/picture/system_error.h"
 #include "studies/meshes/meshes.h"
 #include "studies/pictures/pictures.h"
-#include "tools/commands/study_command.h"
+#include "tools/commands/study/study_command.h"
 #include "tools/pages/study_pages.h"
 #include "tools/run/threads.h"
 #include "tools/system/output_file.h"

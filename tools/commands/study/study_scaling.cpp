@@ -13,7 +13,7 @@
 #include "render/output/child_process.h"
 #include "render/picture/system_error.h"
 #include "studies/common/timing.h"
-#include "tools/commands/study_command.h"
+#include "tools/commands/study/study_command.h"
 #include "tools/pages/study_pages.h"
 #include "tools/run/threads.h"
 #include "tools/system/output_file.h"
