@@ -76,7 +76,7 @@ void writeJoined(const fs::path& folder, const JoinedFrames& joined) {
     const FolderLock lock(folder);
     if (!joined.chunks.empty()) writeFile(folder / "run.json", indentedText(joinedReport(joined)));
     writeFile(folder / manifestName(std::nullopt), encodeManifest(joined.manifest));
-    // Nobody holds or writes these while the folder is locked.
+    // No chunk has these open while the folder is locked.
     render::removeAbandonedFiles(folder, isRunFile);
     for (const fs::path& file : filesIn(folder))
         if (isChunkLock(file)) fs::remove(file);

@@ -3,13 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <iterator>
 #include <memory>
-#include <string_view>
 #include <vector>
 
-#include "render/output/atomic_file.h"
 #include "tools/commands/commands.h"
 #include "tools/mesh/frame_mesh.h"
 #include "tools/run/frame_sequence.h"
@@ -21,8 +18,6 @@
 
 namespace tools {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct MeshOptions {
     RunOptions run;
@@ -120,10 +115,8 @@ void mesh(MeshOptions options) {
     const scenes::Scene scene = load(options.scene);
     const FrameList frames = frameList(options.frames, scenes::frameCount(scene));
     const std::string name = runName(options.scene);
-    constexpr std::string_view kSuffix = "-mesh";
     std::string& folder = options.folder.path;
-    if (folder.empty())
-        folder = (fs::path("out") / (render::shortenedName(name, kSuffix.size()) + std::string(kSuffix))).string();
+    if (folder.empty()) folder = defaultOutput(name, "-mesh");
 
     const std::optional<SimulatedStates> states = openStates(options.states, scene, frames);
     CommandFiles files{scene.files, {}, {{"-o", folder, isRunFile}}};

@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
-#include <string_view>
 
-#include "render/output/atomic_file.h"
 #include "scenes/particles/formats.h"
 #include "scenes/particles/vtp.h"
 #include "tools/commands/commands.h"
@@ -19,8 +16,6 @@
 
 namespace tools {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct SimulateOptions {
     RunOptions run;
@@ -135,10 +130,8 @@ void simulate(SimulateOptions options) {
     const scenes::Scene scene = load(options.scene);
     const FrameList frames = frameList(options.frames, scenes::frameCount(scene));
     const std::string name = runName(options.scene);
-    constexpr std::string_view kSuffix = "-states";
     std::string& folder = options.folder.path;
-    if (folder.empty())
-        folder = (fs::path("out") / (render::shortenedName(name, kSuffix.size()) + std::string(kSuffix))).string();
+    if (folder.empty()) folder = defaultOutput(name, "-states");
 
     requireSeparate({scene.files, {}, {{"-o", folder, isRunFile}}});
     warnOfStart(options.scene, scene, threadCount(options.run));

@@ -3,9 +3,7 @@
 
 #include <filesystem>
 #include <memory>
-#include <string_view>
 
-#include "render/output/atomic_file.h"
 #include "render/output/png.h"
 #include "render/output/video.h"
 #include "scenes/text/input_error.h"
@@ -45,11 +43,7 @@ void checkOutput(const fs::path& path, const scenes::Scene& scene) {
 void drawStrip(const StripOptions& options) {
     const scenes::Scene scene = loadScene(options);
     const DrawJob job = drawJob(scene, options.draw, options.run, runName(options.scene));
-    constexpr std::string_view kSuffix = "-strip.png";
-    const fs::path path =
-        options.output.empty()
-            ? fs::path("out") / (render::shortenedName(job.title, kSuffix.size()) + std::string(kSuffix))
-            : fs::path(options.output);
+    const fs::path path = options.output.empty() ? defaultOutput(job.title, "-strip.png") : options.output;
     const bool isPiped = path == kStandardStream;
     if (isPiped)
         requirePipedOutput(options.run);

@@ -55,8 +55,8 @@ class FrameFolder {
     FrameFolder(const FrameFolder&) = delete;
     FrameFolder& operator=(const FrameFolder&) = delete;
 
-    /// Whether the frame's file of this format was there and intact when the folder was opened, whoever had made it, so
-    /// that it need not be made again.
+    /// Whether the frame's file of this format was there and intact when the folder was opened, made by this chunk or
+    /// by another, so that it need not be made again.
     bool isKept(int frame, const FrameNames& names) const;
 
     /// Whether all files of the frame are kept.

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "render/output/atomic_file.h"
 #include "render/output/video.h"
 #include "render/overlay/text.h"
 #include "scenes/build/library.h"
@@ -113,6 +114,10 @@ std::string runName(const SceneOptions& options) {
     if (options.scene == kStandardStream) return "stdin";
     const bool isFile = scenes::resolveScene(options.scene, sceneFolder()) == options.scene;
     return isFile ? fs::path(options.scene).stem().string() : options.scene;
+}
+
+std::string defaultOutput(const std::string& runName, std::string_view suffix) {
+    return (fs::path("out") / (render::shortenedName(runName, suffix.size()) + std::string(suffix))).string();
 }
 
 scenes::Overrides overridesOf(const DrawOptions& options) {

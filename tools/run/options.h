@@ -101,6 +101,10 @@ void warnOfStart(const SceneOptions& options, const scenes::Scene& scene, int th
 /// @throws scenes::InputError if there is no such scene
 std::string runName(const SceneOptions& options);
 
+/// Where a run of this name writes what has a suffix, such as "-mesh", if it is not told where: below out/, with the
+/// name shortened to what a file name may be long.
+std::string defaultOutput(const std::string& runName, std::string_view suffix);
+
 /// The size and the style that flags ask for, as changes to the scene.
 /// @throws scenes::InputError
 scenes::Overrides overridesOf(const DrawOptions& options);
