@@ -6,6 +6,7 @@
 
 #include "engine/error_control/checked_steps.h"
 #include "engine/error_control/step_cost.h"
+#include "engine/ranks/exact_sums.h"
 #include "engine/stepping/step_cache.h"
 #include "engine/stepping/symplectic_euler.h"
 #include "engine/stepping/take_step.h"
@@ -35,13 +36,13 @@ bool run(Simulation& simulation, const TrialRun& trialRun, double step, double m
 
 /// RMS of dx + T dv over the first `count` particles, in radii, where dx and dv are the differences of positions and
 /// velocities and T is kErrorHorizon.
-double difference(const Particles& a, const Particles& b, std::size_t count) {
-    double sumSq = 0.0;
-    for (std::size_t p = 0; p < count; ++p) {
+double difference(const Ranks& ranks, const Particles& a, const Particles& b, std::size_t count) {
+    const double sumSq = exactSum(ranks, count, [&](std::size_t p) {
         const Vec3 apart = a.position[p] - b.position[p] + kErrorHorizon * (a.velocity[p] - b.velocity[p]);
-        sumSq += squaredLength(apart) / (a.radius[p] * a.radius[p]);
-    }
-    return count == 0 ? 0.0 : std::sqrt(sumSq / static_cast<double>(count));
+        return squaredLength(apart) / (a.radius[p] * a.radius[p]);
+    });
+    const std::uint64_t all = sumOfAll(ranks, count);
+    return all == 0 ? 0.0 : std::sqrt(sumSq / static_cast<double>(all));
 }
 
 }  // namespace
@@ -65,7 +66,7 @@ Trial measure(const Simulation& simulation, const TrialRun& trialRun) {
     if (!trial.finished) return trial;
     const double contrast = std::max(kLeastContrast, 1.0 - errorRatio(trialRun.stepper, meanStep() / trial.step));
     const std::size_t count = simulation.particles.count();
-    trial.error = difference(coarse, there.particles, count) / contrast / interval;
+    trial.error = difference(*simulation.ranks, coarse, there.particles, count) / contrast / interval;
     return trial;
 }
 

@@ -6,6 +6,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/error_control/checked_steps.h"
+#include "engine/ranks/exact_sums.h"
 #include "engine/stepping/step_cache.h"
 #include "engine/stepping/take_step.h"
 
@@ -43,7 +44,7 @@ double fromMeanAccelerations(Simulation& simulation, const SavedState& before, d
     const std::size_t known = std::min(count, cache.meanAccelerations.size());
     cache.meanAccelerations.resize(count, Vec3::Zero());
     const double toError = h * h / 3.0 / (h + cache.lastStep);
-    const double sumSq = sumOver(count, [&](std::size_t p) {
+    const double sumSq = exactSum(*simulation.ranks, count, [&](std::size_t p) {
         const Vec3 mean = (particles.velocity[p] - before.velocity[p]) / h;
         const double radius = particles.radius[p];
         const double off = squaredLength(toError * (mean - cache.meanAccelerations[p])) / (radius * radius);
@@ -51,7 +52,8 @@ double fromMeanAccelerations(Simulation& simulation, const SavedState& before, d
         return p < known ? off : 0.0;
     });
     cache.lastStep = h;
-    return known == 0 ? -1.0 : std::sqrt(sumSq / static_cast<double>(known));
+    const std::uint64_t knownOfAll = sumOfAll(*simulation.ranks, known);
+    return knownOfAll == 0 ? -1.0 : std::sqrt(sumSq / static_cast<double>(knownOfAll));
 }
 
 double ratioOf(const StepControl& steps, double estimate, double wanted) {

@@ -9,6 +9,7 @@
 #include "engine/error_control/checked_steps.h"
 #include "engine/error_control/step_control.h"
 #include "engine/error_control/step_cost.h"
+#include "engine/ranks/exact_sums.h"
 #include "engine/stepping/population.h"
 #include "engine/stepping/step_cache.h"
 #include "engine/stepping/take_step.h"
@@ -113,12 +114,12 @@ void sendCandidate(Simulation& simulation, StepperKind stepper, double interval,
 Comparison compareWithTwin(const Simulation& simulation) {
     const TwinRun& twin = simulation.automatic.twin;
     const Particles& particles = simulation.particles;
-    double sumSq = 0.0;
-    std::size_t both = 0;
+    std::array<ExactSum, 1> sumSq;
+    std::uint64_t both = 0;
     for (std::size_t p = 0, t = 0; p < particles.count() && t < twin.id.size();) {
         if (particles.id[p] == twin.id[t]) {
             const double radius = particles.radius[p];
-            sumSq += squaredLength(particles.position[p] - twin.position[t]) / (radius * radius);
+            sumSq[0].add(squaredLength(particles.position[p] - twin.position[t]) / (radius * radius));
             ++both;
         }
         const bool isBehind = particles.id[p] < twin.id[t];
@@ -126,7 +127,9 @@ Comparison compareWithTwin(const Simulation& simulation) {
         if (!isBehind) ++t;
     }
     const double seconds = twin.end - twin.start;
-    const double rms = both == 0 ? 0.0 : std::sqrt(sumSq / static_cast<double>(both));
+    both = sumOfAll(*simulation.ranks, both);
+    const double rms =
+        both == 0 ? 0.0 : std::sqrt(roundedOverRanks(*simulation.ranks, sumSq)[0] / static_cast<double>(both));
     return {rms / seconds, twin.runEstimate / seconds, (forceEvaluationsOf(simulation) - twin.runCost) / seconds};
 }
 

@@ -1,8 +1,10 @@
-// Conjugate gradients as in Hestenes and Stiefel 1952. Sums are taken over chunks of fixed size, so that they do not
-// depend on the number of threads.
+// Conjugate gradients as in Hestenes and Stiefel 1952. Sums are exact until they are rounded, so that they do not
+// depend on the numbers of threads and ranks.
 #include "engine/forces/conjugate_gradient.h"
 
 #include <algorithm>
+
+#include "engine/ranks/exact_sums.h"
 
 #include "engine/core/parallel.h"
 
@@ -18,12 +20,13 @@ constexpr int kMostIterations = 500;
 int solve(PairMatrix& matrix, const std::vector<Vec3>& b, const Tolerance& tolerance, std::vector<Vec3>& x,
           SolverScratch& scratch) {
     const std::size_t count = matrix.count();
+    const Ranks& ranks = *matrix.ranks;
     std::vector<Vec3>& residual = scratch.residual;
     std::vector<Vec3>& direction = scratch.direction;
     std::vector<Vec3>& product = scratch.product;
     for (std::vector<Vec3>* of : {&x, &residual, &direction}) of->resize(count);
     const auto termOfNorm = [&](std::size_t p) { return squaredLength(residual[p]) / matrix.mass[p]; };
-    double norm = sumOver(count, [&](std::size_t p) {
+    double norm = exactSum(ranks, count, [&](std::size_t p) {
         x[p] = Vec3::Zero();
         residual[p] = b[p];
         direction[p] = residual[p] / matrix.mass[p];
@@ -36,11 +39,11 @@ int solve(PairMatrix& matrix, const std::vector<Vec3>& b, const Tolerance& toler
     while (norm > target && iteration < kMostIterations) {
         multiply(matrix, direction, product);
         ++iteration;
-        const double curvature = sumOver(count, [&](std::size_t p) { return dot(direction[p], product[p]); });
+        const double curvature = exactSum(ranks, count, [&](std::size_t p) { return dot(direction[p], product[p]); });
         if (!(curvature > 0.0)) break;  // only rounding is left, or NaN; the check after the step decides
         const double length = norm / curvature;
         const double before = norm;
-        norm = sumOver(count, [&](std::size_t p) {
+        norm = exactSum(ranks, count, [&](std::size_t p) {
             x[p] += length * direction[p];
             residual[p] -= length * product[p];
             return termOfNorm(p);

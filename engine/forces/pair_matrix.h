@@ -10,6 +10,7 @@
 #include "engine/core/vec3.h"
 #include "engine/forces/packed_particles.h"
 #include "engine/neighbors/neighbor_list.h"
+#include "engine/ranks/ranks.h"
 
 namespace engine {
 
@@ -26,12 +27,13 @@ struct PairMatrix {
     /// One number for each entry of the neighbor rows, in a vector for each block of rows.
     using Entries = std::vector<std::vector<double>>;
 
-    std::vector<double> mass;            ///< mass of each particle, kg
-    std::vector<Matrix3> own;            ///< terms of obstacles in the particles' diagonal blocks, kg; may be empty
-    std::vector<PackedParticle> packed;  ///< positions; the velocities hold the vector x of a product A x
-    NeighborRows rows;                   ///< neighbors with an entry in the matrix, for each particle
-    Entries along;                       ///< coefficients of P P^T, kg/m^2
-    Entries across;                      ///< coefficients of the unit matrix, kg; empty without friction
+    const Ranks* ranks = &Ranks::alone();  ///< the processes that share the particles
+    std::vector<double> mass;              ///< mass of each particle, kg
+    std::vector<Matrix3> own;              ///< terms of obstacles in the particles' diagonal blocks, kg; may be empty
+    std::vector<PackedParticle> packed;    ///< positions; the velocities hold the vector x of a product A x
+    NeighborRows rows;                     ///< neighbors with an entry in the matrix, for each particle
+    Entries along;                         ///< coefficients of P P^T, kg/m^2
+    Entries across;                        ///< coefficients of the unit matrix, kg; empty without friction
 
     std::size_t count() const { return mass.size(); }
 

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "engine/forces/simd_forces.h"
+#include "engine/ranks/exact_sums.h"
 
 namespace engine {
 namespace {
@@ -105,19 +105,19 @@ ParticleSums sumParticle(const PairTraversal& pairs, const PairSums& wanted, std
     return sums;
 }
 
-/// Calls sumCluster(first, end) for every cluster of particles, given by the range of its lane slots, which number the
-/// rows of the neighbor list. The clusters are divided among the threads. Returns
-/// the sum of the energies (J) that sumCluster returns, or 0 if no energy is wanted.
+/// Calls sumCluster(first, end, energies) for every cluster of particles, given by the range of its lane slots, which
+/// number the rows of the neighbor list. The clusters are divided among the threads. sumCluster stores the energies (J)
+/// of the lane slots from `first` on if energies are wanted. Returns their sum, or 0 if none are wanted.
 template <class SumCluster>
 double overClusters(const PairTraversal& pairs, bool hasEnergy, const SumCluster& sumCluster) {
     const std::size_t count = pairs.list.count();
-    std::vector<double> energies(pairs.list.rows.clusterCount());
+    std::vector<double> energies(hasEnergy ? count : 0);
     constexpr std::size_t kGrain = 4;  // fewest clusters a thread; chosen: a particle takes up to 0.5 microseconds
-    inParallel(energies.size(), kGrain, [&](std::size_t cluster) {
+    inParallel(pairs.list.rows.clusterCount(), kGrain, [&](std::size_t cluster) {
         const std::size_t first = cluster * kClusterSize;
-        energies[cluster] = sumCluster(first, std::min(first + kClusterSize, count));
+        sumCluster(first, std::min(first + kClusterSize, count), hasEnergy ? &energies[first] : nullptr);
     });
-    return hasEnergy ? sumOver(energies.size(), [&](std::size_t cluster) { return energies[cluster]; }) : 0.0;
+    return hasEnergy ? exactSum(*pairs.ranks, count, [&](std::size_t laneSlot) { return energies[laneSlot]; }) : 0.0;
 }
 
 /// The force (N) on the particle in a lane slot of the neighbor list.
@@ -128,14 +128,12 @@ Vec3& forceOn(const PairTraversal& pairs, std::size_t laneSlot, const PairSums& 
 /// Sums over all pairs with the scalar kernel; returns the pair energy, in joules.
 template <Variant variant>
 double sumOneByOne(const PairTraversal& pairs, const PairSums& wanted) {
-    return overClusters(pairs, variant.hasEnergy, [&](std::size_t first, std::size_t end) {
-        double energy = 0.0;
+    return overClusters(pairs, variant.hasEnergy, [&](std::size_t first, std::size_t end, double* energies) {
         for (std::size_t laneSlot = first; laneSlot < end; ++laneSlot) {
             const ParticleSums sums = sumParticle<variant>(pairs, wanted, laneSlot);
             forceOn(pairs, laneSlot, wanted) = sums.force;
-            energy += sums.energy;
+            if constexpr (variant.hasEnergy) energies[laneSlot - first] = sums.energy;
         }
-        return energy;
     });
 }
 
@@ -206,7 +204,7 @@ void correctCoincident(const PairTraversal& pairs, const PairSums& wanted, std::
 double sumInLanes(const PairTraversal& pairs, const PairSums& wanted) {
     const bool hasEnergy = wanted.energy != nullptr || wanted.matrix != nullptr;
     const ClusterKernel sumCluster = clusterKernel(pairs, wanted);
-    return overClusters(pairs, hasEnergy, [&](std::size_t first, std::size_t end) {
+    return overClusters(pairs, hasEnergy, [&](std::size_t first, std::size_t end, double* energies) {
         ClusterSums sums;
         sumCluster(pairs, wanted, first / kClusterSize, sums);
         if (sums.coincident != 0)
@@ -214,7 +212,7 @@ double sumInLanes(const PairTraversal& pairs, const PairSums& wanted) {
                       [&]<PairTerms terms>() { correctCoincident<terms>(pairs, wanted, first, sums); });
         for (std::size_t lane = 0; lane < end - first; ++lane)
             forceOn(pairs, first + lane, wanted) = Vec3(sums.x[lane], sums.y[lane], sums.z[lane]);
-        return hasEnergy ? std::accumulate(sums.energy.data(), sums.energy.data() + (end - first), 0.0) : 0.0;
+        if (hasEnergy) std::copy_n(sums.energy.data(), end - first, energies);
     });
 }
 
@@ -234,7 +232,7 @@ void sumPairs(const PairTraversal& pairs, const PairSums& wanted) {
 }
 
 double pairEnergySum(const PairTraversal& pairs) {
-    return sumOver(pairs.list.count(), [&](std::size_t laneSlot) {
+    return exactSum(*pairs.ranks, pairs.list.count(), [&](std::size_t laneSlot) {
         double energy = 0.0;
         const PackedParticle& p = pairs.packed[pairs.sortedIndexAt(laneSlot)];
         pairs.forEachNeighbor(laneSlot, [&](std::uint32_t other, const Vec3&, double distanceSq) {

@@ -15,12 +15,14 @@
 #include "engine/forces/pair_table.h"
 #include "engine/neighbors/neighbor_list.h"
 #include "engine/neighbors/neighbor_rows.h"
+#include "engine/ranks/ranks.h"
 #include "engine/state/setup.h"
 
 namespace engine {
 
 /// State that is kept from one pass over the pairs to the next, since the neighbor list stays valid for many passes.
 struct PairTraversal {
+    const Ranks* ranks = &Ranks::alone();  ///< the processes that share the particles
     std::vector<Material> materials;
     ForceTerms terms;
     PairTable table;  ///< constants of the pairs of every two materials

@@ -27,8 +27,12 @@ StepStatistics& StepStatistics::operator+=(const StepStatistics& other) {
     return *this;
 }
 
+std::uint64_t countOfAll(const Simulation& simulation) {
+    return sumOfAll(*simulation.ranks, simulation.particles.count());
+}
+
 std::uint64_t largestCount(const Simulation& simulation) {
-    return std::max<std::uint64_t>(simulation.largestCountBeforeRemoval, simulation.particles.count());
+    return std::max(simulation.largestCountBeforeRemoval, countOfAll(simulation));
 }
 
 std::uint64_t birthCount(const Simulation& simulation) {

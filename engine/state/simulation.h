@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "engine/ranks/ranks.h"
 #include "engine/state/setup.h"
 
 namespace engine {
@@ -129,7 +130,8 @@ class StepCachePointer {
 
 struct Simulation {
     Setup setup;
-    Particles particles;
+    const Ranks* ranks = &Ranks::alone();  ///< the processes that share the particles
+    Particles particles;                   ///< those of this process, in order of id
     std::vector<EmitterState> emitters;
     std::uint64_t removedCount = 0;                     ///< particles removed outside a bounded world
     std::uint64_t largestCountBeforeRemoval = 0;        ///< largest particle count when particles were removed
@@ -154,6 +156,9 @@ class Stopped : public std::exception {};
 class InstabilityError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
+
+/// The number of particles on all ranks.
+std::uint64_t countOfAll(const Simulation& simulation);
 
 /// The largest number of particles that the run has had so far.
 std::uint64_t largestCount(const Simulation& simulation);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "engine/core/parallel.h"
+#include "engine/ranks/exact_sums.h"
 #include "engine/stepping/drift.h"
 
 namespace engine {
@@ -31,17 +32,21 @@ void renewGroups(Simulation& simulation) {
 std::vector<GroupEnergy> groupEnergies(const Simulation& simulation) {
     const FarGroups& groups = simulation.cache->evaluator.groups();
     const Particles& particles = simulation.particles;
-    std::vector<GroupEnergy> energies(groups.count());
-    std::vector<double> mass(groups.count());
-    std::vector<Vec3> momentum(groups.count(), Vec3::Zero());
+    using Sums = std::array<ExactSum, 5>;  // mass, momentum along x, y and z, potential energy
+    std::vector<Sums> sums(groups.count());
     for (std::size_t p = 0; p < groups.groupOf.size(); ++p) {
-        const std::uint32_t group = groups.groupOf[p];
-        mass[group] += particles.mass[p];
-        momentum[group] += particles.mass[p] * particles.velocity[p];
-        energies[group].potential -= particles.mass[p] * dot(simulation.setup.gravity, particles.position[p]);
+        Sums& group = sums[groups.groupOf[p]];
+        const double mass = particles.mass[p];
+        group[0].add(mass);
+        for (int axis = 0; axis < 3; ++axis)
+            group[static_cast<std::size_t>(axis) + 1].add(mass * particles.velocity[p][axis]);
+        group[4].add(-mass * dot(simulation.setup.gravity, particles.position[p]));
     }
-    for (std::size_t group = 0; group < groups.count(); ++group)
-        energies[group].kinetic = 0.5 * squaredLength(momentum[group]) / mass[group];
+    std::vector<GroupEnergy> energies;
+    for (Sums& group : sums) {
+        const auto [mass, x, y, z, potential] = roundedOverRanks(*simulation.ranks, group);
+        energies.push_back({0.5 * squaredLength(Vec3(x, y, z)) / mass, potential});
+    }
     return energies;
 }
 

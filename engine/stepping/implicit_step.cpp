@@ -5,6 +5,7 @@
 
 #include "engine/core/exp_negative.h"
 #include "engine/core/parallel.h"
+#include "engine/ranks/exact_sums.h"
 #include "engine/state/state_checks.h"
 #include "engine/stepping/drift.h"
 #include "engine/stepping/step_audit.h"
@@ -25,7 +26,8 @@ void solveForChange(Simulation& simulation, double h) {
             0.5 * h * simulation.cache->forces[order[place]] - scratch.matrix.mass[place] * fall;
         if (!scratch.matrix.own.empty()) scratch.rightHandSide[place] -= scratch.matrix.own[place] * fall;
     });
-    const double mass = sumOver(order.size(), [&](std::size_t place) { return scratch.matrix.mass[place]; });
+    const double mass =
+        exactSum(*simulation.ranks, order.size(), [&](std::size_t place) { return scratch.matrix.mass[place]; });
     const Tolerance tolerance = {simulation.setup.solverTolerance,
                                  0.5 * h * simulation.cache->toleratedAcceleration * std::sqrt(mass)};
     const int products = solve(scratch.matrix, scratch.rightHandSide, tolerance, scratch.change, scratch.solver);

@@ -1,11 +1,12 @@
-// The audit of time steps. Energies are summed in chunks of fixed size, so that whether a step is accepted does not
-// depend on the number of threads.
+// The audit of time steps. Sums of energies are exact until they are rounded, so that whether a step is accepted does
+// not depend on the numbers of threads and ranks.
 #include "engine/stepping/step_audit.h"
 
 #include <cmath>
 #include <limits>
 
 #include "engine/core/parallel.h"
+#include "engine/ranks/exact_sums.h"
 #include "engine/state/probe.h"
 #include "engine/stepping/drift.h"
 #include "engine/stepping/free_groups.h"
@@ -99,7 +100,7 @@ double allowanceFor(const Simulation& simulation, const SavedState& saved) {
 
 double energyAllowance(const Simulation& simulation) {
     const Particles& particles = simulation.particles;
-    const double slow = sumOver(particles.count(), [&](std::size_t p) {
+    const double slow = exactSum(*simulation.ranks, particles.count(), [&](std::size_t p) {
         const double speed = kSlow * particles.radius[p];
         return 0.5 * particles.mass[p] * speed * speed;
     });
@@ -114,10 +115,11 @@ void recordEnergy(Simulation& simulation, const ParticleEnergy& own, double pair
 }
 
 void recordEnergy(Simulation& simulation, double pairEnergy) {
-    const ParticleEnergy own = sumOver<ParticleEnergy>(simulation.particles.count(), [&](std::size_t p) {
-        return particleEnergy(simulation, p, contactEnergyOf(simulation, p));
+    const auto [kinetic, potential] = exactSums<2>(*simulation.ranks, simulation.particles.count(), [&](std::size_t p) {
+        const ParticleEnergy energy = particleEnergy(simulation, p, contactEnergyOf(simulation, p));
+        return std::array{energy.kinetic, energy.potential};
     });
-    recordEnergy(simulation, own, pairEnergy);
+    recordEnergy(simulation, {kinetic, potential}, pairEnergy);
 }
 
 void markInvalid(Simulation& simulation) {

@@ -23,12 +23,6 @@ double energyAllowance(const Simulation& simulation);
 struct ParticleEnergy {
     double kinetic = 0.0;
     double potential = 0.0;  ///< energy in gravity and at the obstacles
-
-    ParticleEnergy& operator+=(const ParticleEnergy& other) {
-        kinetic += other.kinetic;
-        potential += other.potential;
-        return *this;
-    }
 };
 
 /// Energy of one particle in its present state, without the energy of pairs.

@@ -7,6 +7,7 @@
 
 #include "engine/core/exp_negative.h"
 #include "engine/core/parallel.h"
+#include "engine/ranks/exact_sums.h"
 #include "engine/state/state_checks.h"
 #include "engine/stepping/drift.h"
 #include "engine/stepping/step_audit.h"
@@ -20,18 +21,6 @@ double evaluateForces(Simulation& simulation, const std::vector<Vec3>& velocitie
     ++simulation.steps.forceEvaluations;
     return simulation.cache->evaluator.evaluateFree(simulation.particles, velocities, simulation.cache->forces, h);
 }
-
-/// What is summed over the particles at the end of a step.
-struct EndOfStep {
-    ParticleEnergy own;
-    double predictionErrorSq = 0.0;  ///< squares of the differences between velocity and prediction, 1/s^2, in radii
-
-    EndOfStep& operator+=(const EndOfStep& other) {
-        own += other.own;
-        predictionErrorSq += other.predictionErrorSq;
-        return *this;
-    }
-};
 
 /// Change of a particle's velocity by half a kick with this force (N), m/s.
 Vec3 halfKick(const Particles& particles, std::size_t p, double h, const Vec3& force) {
@@ -68,20 +57,23 @@ void velocityVerletStep(Simulation& simulation, double h, double lambda) {
     // Leapfrog predicts no part of the second half of the kick, of which gravity causes no error: a particle that falls
     // is without error if this is left out, and one that rests if it is not.
     const Vec3 unpredictedFall = (1.0 - lambda) * h * simulation.setup.gravity;
-    // The second half of the kick, and what is summed after it, in one loop.
-    const EndOfStep sums = sumOver<EndOfStep>(particles.count(), [&](std::size_t p) {
-        const ContactSums contacts = resolvedContacts(simulation, p, predicted[p]);
-        particles.velocity[p] += halfKick(particles, p, h, simulation.cache->forces[p] + contacts.force);
-        const double radius = particles.radius[p];
-        const Vec3 missing = particles.velocity[p] - predicted[p];
-        const double errorSq =
-            std::min(squaredLength(missing), squaredLength(missing - unpredictedFall)) / (radius * radius);
-        return EndOfStep{particleEnergy(simulation, p, contacts.energy), errorSq};
-    });
+    // The second half of the kick, and what is summed after it, in one loop: energies, the squares of the differences
+    // between velocity and prediction, in (radii per second)^2.
+    const auto [kinetic, potential, errorSqSum] =
+        exactSums<3>(*simulation.ranks, particles.count(), [&](std::size_t p) {
+            const ContactSums contacts = resolvedContacts(simulation, p, predicted[p]);
+            particles.velocity[p] += halfKick(particles, p, h, simulation.cache->forces[p] + contacts.force);
+            const double radius = particles.radius[p];
+            const Vec3 missing = particles.velocity[p] - predicted[p];
+            const double errorSq =
+                std::min(squaredLength(missing), squaredLength(missing - unpredictedFall)) / (radius * radius);
+            const ParticleEnergy energy = particleEnergy(simulation, p, contacts.energy);
+            return std::array{energy.kinetic, energy.potential, errorSq};
+        });
     simulation.cache->forcesCurrent = true;
     simulation.cache->predictionError =
-        std::sqrt(sums.predictionErrorSq / static_cast<double>(std::max<std::size_t>(1, particles.count())));
-    recordEnergy(simulation, sums.own, pairEnergy);
+        std::sqrt(errorSqSum / static_cast<double>(std::max<std::uint64_t>(1, countOfAll(simulation))));
+    recordEnergy(simulation, {kinetic, potential}, pairEnergy);
 }
 
 }  // namespace engine

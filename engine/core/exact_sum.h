@@ -1,0 +1,75 @@
+// A sum of doubles that does not depend on the order of its terms: it is exact until it is rounded once at the end.
+// Sums that decide about a run are taken in this way, so that they have the same bits however the particles are divided
+// among threads and processes.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+namespace engine {
+
+/// The exact sum of any number of doubles, as a fixed-point number that spans the exponents of all doubles. Word k
+/// counts units of 2^(32 k - 1074). A term is added to two words; as words have 64 bits, carries can wait for many
+/// terms. This is the small superaccumulator of R. M. Neal, "Fast exact summation using small and large
+/// superaccumulators", arXiv:1505.05571, 2015.
+class ExactSum {
+ public:
+    static constexpr std::size_t kWords = 68;
+
+    void add(double term) {
+        constexpr std::uint64_t kMantissa = (std::uint64_t{1} << 52) - 1;
+        const auto bits = std::bit_cast<std::uint64_t>(term);
+        const auto exponent = static_cast<std::uint32_t>(bits >> 52 & 0x7FF);
+        if (exponent == 0x7FF) {
+            ++words_.back();  // counts the terms that are not finite
+            return;
+        }
+        const std::uint32_t place = exponent == 0 ? 0 : exponent - 1;
+        const std::uint64_t mantissa = (bits & kMantissa) | (exponent == 0 ? 0 : kMantissa + 1);
+        const std::size_t word = place / 32;
+        const std::uint32_t shift = place % 32;
+        const auto low = static_cast<std::int64_t>(mantissa << shift & 0xFFFFFFFF);
+        const auto high = static_cast<std::int64_t>(mantissa >> (32 - shift));
+        const std::int64_t sign = term < 0.0 ? -1 : 1;
+        words_[word] += sign * low;
+        words_[word + 1] += sign * high;
+        if (++waiting_ == kMostWaiting) carry();
+    }
+
+    ExactSum& operator+=(ExactSum other) {
+        carry();
+        other.carry();
+        for (std::size_t k = 0; k < kWords; ++k) words_[k] += other.words_[k];
+        return *this;
+    }
+
+    /// The sum, rounded to the nearest double; NaN if a term was not finite, infinity if it is too large for a double.
+    double value() const;
+
+    /// The words after carrying: two thousand millions of them can be added, word by word, to the sum of all.
+    std::array<std::int64_t, kWords>& carriedWords() {
+        carry();
+        return words_;
+    }
+
+ private:
+    /// Brings every word but the last below 2^32 in magnitude.
+    void carry() {
+        for (std::size_t k = 0; k + 2 < kWords; ++k) {
+            const std::int64_t over = words_[k] >> 32;
+            words_[k] -= over << 32;
+            words_[k + 1] += over;
+        }
+        waiting_ = 0;
+    }
+
+    /// A term adds less than 2^53 to a word, and a carried word has less than 2^33.
+    static constexpr std::uint32_t kMostWaiting = 1000;
+
+    std::array<std::int64_t, kWords> words_{};  ///< the last counts terms that are not finite
+    std::uint32_t waiting_ = 0;                 ///< terms added since the last carry
+};
+
+}  // namespace engine
