@@ -84,6 +84,11 @@ HWY_EXPORT(findCellsHere);
 
 namespace {
 
+/// Fewest cells along an axis: the cells before and after each cell are then two. The order in which neighbors are
+/// found, and with it the last bits of forces, depends on the positions of the neighbors alone, not on the extent of the
+/// particles, of which a rank sees only its part.
+constexpr std::int64_t kFewestCells = 3;
+
 /// Largest number of cells: about two for each particle, so that the size of the grid is linear in the number of
 /// particles even if they are far apart.
 std::int64_t cellLimit(std::size_t particleCount) {
@@ -97,9 +102,10 @@ std::array<std::int64_t, 3> chooseDimensions(const BoundingBox& extent, std::siz
         const double along = std::floor((extent.high[axis] - extent.low[axis]) / width) + 2.0;
         // std::min(limit, x) returns limit when x is NaN; the reverse order would not.
         dimensions[static_cast<std::size_t>(axis)] =
-            static_cast<std::int64_t>(std::min(static_cast<double>(limit), along));
+            std::max(kFewestCells, static_cast<std::int64_t>(std::min(static_cast<double>(limit), along)));
     }
-    // Any number of cells gives correct neighbors. Halving the longest axis keeps cells that share storage far apart.
+    // Any larger number of cells gives correct neighbors. Halving the longest axis keeps cells that share storage far
+    // apart, and leaves at least three, because an axis of four is not halved: 4 x 4 x 4 cells are within any limit.
     const auto cells = [&] {
         return static_cast<double>(dimensions[0]) * static_cast<double>(dimensions[1]) *
                static_cast<double>(dimensions[2]);
@@ -172,11 +178,6 @@ Neighborhood neighborhood(const CellGrid& grid, const CellRun& run) {
     const auto [nx, ny, nz] = grid.dimensions;
     const auto [x, y, z] = indicesOf(grid, run.first);
     const std::int64_t lastX = x + run.last - run.first;
-    // With one or two cells along an axis, the neighbors at -1 and +1 are the same cell, which must be visited only
-    // once.
-    const auto firstStep = [](std::int64_t size) { return size >= 3 ? -1 : 0; };
-    const auto lastStep = [](std::int64_t size) { return size >= 2 ? 1 : 0; };
-
     Neighborhood found;
     const auto add = [&](std::int64_t from, std::int64_t last) {
         const CellRange range{grid.start[static_cast<std::size_t>(from)],
@@ -189,14 +190,14 @@ Neighborhood neighborhood(const CellGrid& grid, const CellRun& run) {
             found.ranges[static_cast<std::size_t>(found.count++)] = range;
     };
     const bool isInside = x > 0 && lastX + 1 < nx;  // the run and its neighbors along x are consecutive
-    for (std::int64_t dz = firstStep(nz); dz <= lastStep(nz); ++dz) {
-        for (std::int64_t dy = firstStep(ny); dy <= lastStep(ny); ++dy) {
+    for (std::int64_t dz = -1; dz <= 1; ++dz) {
+        for (std::int64_t dy = -1; dy <= 1; ++dy) {
             const std::int64_t first = (wrappedStep(z + dz, nz) * ny + wrappedStep(y + dy, ny)) * nx;
             if (isInside) {
                 add(first + x - 1, first + lastX + 1);
                 continue;
             }
-            for (std::int64_t dx = firstStep(nx); dx <= lastStep(nx); ++dx) {
+            for (std::int64_t dx = -1; dx <= 1; ++dx) {
                 const std::int64_t at = first + wrappedStep(x + dx, nx);
                 add(at, at);
             }

@@ -89,7 +89,7 @@ struct Neighborhood {
 
 struct CellGrid {
     double width = 1.0;                               ///< of a cell, m
-    std::array<std::int64_t, 3> dimensions{1, 1, 1};  ///< numbers of cells along x, y, z
+    std::array<std::int64_t, 3> dimensions{1, 1, 1};  ///< numbers of cells along x, y, z; at least 3 with particles
     std::vector<std::uint32_t> start;                 ///< index in `order` of each cell's first particle, and the end
     std::vector<std::uint32_t> order;                 ///< particle indices sorted by cell, ascending within a cell
     std::vector<std::uint32_t> cellOf;                ///< storage index of the cell of each particle

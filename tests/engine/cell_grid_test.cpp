@@ -91,7 +91,8 @@ TEST_CASE("The order within a cell is that of the indices", "[cell-grid]") {
 
 TEST_CASE("Runs are as long as their limits allow, and end before the last cell of a line", "[cell-grid]") {
     std::vector<Vec3> positions;
-    for (int x = 0; x < 12; ++x) positions.emplace_back(x + 0.5, 0.5, 0.5);  // one in a cell
+    for (int x = 0; x < 12; ++x)
+        for (int k = 0; k < 9; ++k) positions.emplace_back(x + 0.5, k % 3 + 0.5, k / 3 + 0.5);  // one in a cell
     CellGrid grid;
     build(grid, positions, 1.0);
     const auto cellsFrom = [&](std::uint32_t cell, std::uint32_t mostParticles, std::uint32_t mostCells) {
