@@ -23,6 +23,12 @@ struct BoundingBox {
         return {Vec3::Constant(-kInfinity), Vec3::Constant(kInfinity)};
     }
 
+    /// A box that contains nothing: its lower bounds are plus infinity, its upper ones minus infinity.
+    static BoundingBox empty() {
+        const BoundingBox all = unbounded();
+        return {all.high, all.low};
+    }
+
     /// Whether a vector is inside the box or on its surface; a NaN is not.
     bool contains(const Vec3& vector) const {
         return (vector.array() >= low.array()).all() && (vector.array() <= high.array()).all();
@@ -39,7 +45,7 @@ struct BoundingBox {
     }
 };
 
-/// The bounding box of the vectors vectorOf(0) to vectorOf(count - 1); count is at least 1.
+/// The bounding box of the vectors vectorOf(0) to vectorOf(count - 1); BoundingBox::empty() if there are none.
 template <class VectorOf>
 BoundingBox boundingBoxOf(std::size_t count, const VectorOf& vectorOf) {
     const auto boxOf = [&](std::size_t begin, std::size_t end) {
@@ -51,9 +57,8 @@ BoundingBox boundingBoxOf(std::size_t count, const VectorOf& vectorOf) {
         }
         return box;
     };
-    const std::vector<BoundingBox> parts = resultsOfChunks<BoundingBox>(count, boxOf);
-    BoundingBox box = parts.front();
-    for (const BoundingBox& part : parts) box.include(part);
+    BoundingBox box = BoundingBox::empty();
+    for (const BoundingBox& part : resultsOfChunks<BoundingBox>(count, boxOf)) box.include(part);
     return box;
 }
 

@@ -103,8 +103,10 @@ void startTwin(Simulation& simulation, double interval) {
 }
 
 /// Smallest radius of the particles, m. There must be at least one particle.
-double smallestRadius(const Particles& particles) {
-    return *std::min_element(particles.radius.begin(), particles.radius.end());
+double smallestRadius(const Simulation& simulation) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const double radius : simulation.particles.radius) smallest = std::min(smallest, radius);
+    return -largestOfAll(*simulation.ranks, -smallest);
 }
 
 /// Whether the stored numbers of a twin are possible values; NaNs are not.
@@ -118,7 +120,7 @@ bool isPossible(const TwinRun& twin) {
 }  // namespace
 
 double acceptableResidual(const Simulation& simulation) {
-    return kSolverShare * simulation.setup.error * smallestRadius(simulation.particles) / kErrorHorizon;
+    return kSolverShare * simulation.setup.error * smallestRadius(simulation) / kErrorHorizon;
 }
 
 bool isReachable(const AutoState& state, StepperKind inUse) {
@@ -131,7 +133,7 @@ void advanceAutomatically(Simulation& simulation, double time) {
     emitDue(simulation);
     AutoState& state = simulation.automatic;
     const double interval = time - simulation.time;
-    if (simulation.particles.count() == 0) {
+    if (countOfAll(simulation) == 0) {
         simulation.cache->toleratedAcceleration = 0.0;
         advanceChecked(simulation, time, interval, StepLimit::frame);
         return;

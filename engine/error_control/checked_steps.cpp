@@ -38,7 +38,7 @@ void establishEnergy(Simulation& simulation) {
 /// so the last step is also audited by the energy at its end.
 void checkIntervalEnd(Simulation& simulation) {
     if (isVerlet(simulation.stepper) || std::isnan(*simulation.cache->energy)) return;
-    if (!isValid(simulation.particles)) return markInvalid(simulation);
+    if (!isValid(simulation)) return markInvalid(simulation);
     establishEnergy(simulation);
 }
 

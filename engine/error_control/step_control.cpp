@@ -64,7 +64,7 @@ double ratioOf(const StepControl& steps, double estimate, double wanted) {
 }  // namespace
 
 std::optional<double> estimateStep(Simulation& simulation, const SavedState& before, double h) {
-    if (before.velocity.empty()) return std::nullopt;
+    if (sumOfAll(*simulation.ranks, before.velocity.size()) == 0) return std::nullopt;
     if (isVerlet(simulation.stepper)) {
         simulation.cache->meanAccelerations.clear();
         return simulation.cache->predictionError / 3.0;

@@ -10,6 +10,7 @@
 #include "engine/error_control/step_control.h"
 #include "engine/error_control/step_cost.h"
 #include "engine/ranks/exact_sums.h"
+#include "engine/ranks/exchange.h"
 #include "engine/stepping/population.h"
 #include "engine/stepping/step_cache.h"
 #include "engine/stepping/take_step.h"
@@ -38,6 +39,13 @@ bool advanceWithin(Simulation& ahead, ErrorControl& errors, double seconds, doub
     }
     return true;
 }
+
+/// Where a particle is in the run or in a twin.
+struct Place {
+    Vec3 position;        ///< m
+    double radius = 0.0;  ///< m; 0 in the twin
+    std::uint32_t id = 0;
+};
 
 /// Keeps the end of a copy of the simulation that has run ahead of it.
 void keep(Simulation& simulation, const Simulation& ahead, const ErrorControl& errors) {
@@ -114,22 +122,28 @@ void sendCandidate(Simulation& simulation, StepperKind stepper, double interval,
 Comparison compareWithTwin(const Simulation& simulation) {
     const TwinRun& twin = simulation.automatic.twin;
     const Particles& particles = simulation.particles;
+    const Ranks& ranks = *simulation.ranks;
+    // A particle may be on another rank than the twin's, so both are sent to a rank that the id names.
+    std::vector<std::vector<Place>> toRanks(static_cast<std::size_t>(ranks.count()));
+    const auto send = [&](const Place& place) { toRanks[place.id % toRanks.size()].push_back(place); };
+    for (std::size_t p = 0; p < particles.count(); ++p)
+        send({particles.position[p], particles.radius[p], particles.id[p]});
+    for (std::size_t t = 0; t < twin.id.size(); ++t) send({twin.position[t], 0.0, twin.id[t]});
+    std::vector<Place> places = exchangeItems(ranks, toRanks);
+    std::ranges::sort(places, [](const Place& one, const Place& other) {
+        return one.id != other.id ? one.id < other.id : one.radius > other.radius;
+    });
     std::array<ExactSum, 1> sumSq;
     std::uint64_t both = 0;
-    for (std::size_t p = 0, t = 0; p < particles.count() && t < twin.id.size();) {
-        if (particles.id[p] == twin.id[t]) {
-            const double radius = particles.radius[p];
-            sumSq[0].add(squaredLength(particles.position[p] - twin.position[t]) / (radius * radius));
-            ++both;
-        }
-        const bool isBehind = particles.id[p] < twin.id[t];
-        if (particles.id[p] <= twin.id[t]) ++p;
-        if (!isBehind) ++t;
+    for (std::size_t k = 0; k + 1 < places.size(); ++k) {
+        const Place& place = places[k];
+        if (place.id != places[k + 1].id) continue;
+        sumSq[0].add(squaredLength(place.position - places[k + 1].position) / (place.radius * place.radius));
+        ++both;
     }
+    both = sumOfAll(ranks, both);
+    const double rms = both == 0 ? 0.0 : std::sqrt(roundedOverRanks(ranks, sumSq)[0] / static_cast<double>(both));
     const double seconds = twin.end - twin.start;
-    both = sumOfAll(*simulation.ranks, both);
-    const double rms =
-        both == 0 ? 0.0 : std::sqrt(roundedOverRanks(*simulation.ranks, sumSq)[0] / static_cast<double>(both));
     return {rms / seconds, twin.runEstimate / seconds, (forceEvaluationsOf(simulation) - twin.runCost) / seconds};
 }
 

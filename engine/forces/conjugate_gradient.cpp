@@ -37,7 +37,9 @@ int solve(PairMatrix& matrix, const std::vector<Vec3>& b, const Tolerance& toler
                                    std::min(squared(tolerance.absolute), squared(kMostLeftOut) * norm));
     int iteration = 0;
     while (norm > target && iteration < kMostIterations) {
+        if (ranks.areMany()) matrix.fetchGhosts(direction);
         multiply(matrix, direction, product);
+        for (const std::uint32_t ghost : matrix.ghosts) product[ghost] = Vec3::Zero();
         ++iteration;
         const double curvature = exactSum(ranks, count, [&](std::size_t p) { return dot(direction[p], product[p]); });
         if (!(curvature > 0.0)) break;  // only rounding is left, or NaN; the check after the step decides

@@ -27,9 +27,9 @@ struct Tolerance {
 inline constexpr double kMostLeftOut = 0.1;
 
 /// Solves A x = b by conjugate gradients from x = 0, preconditioned with the mass matrix M, and returns the number of
-/// products with A. If the impulses b change neither linear nor angular momentum, neither do M x (to rounding), at any
-/// tolerance: every vector of the iteration is M^-1 times a sum of pair impulses. Other preconditioners do not have
-/// this property.
+/// products with A. In the rows of ghosts, b must be zero and x has no meaning. If the impulses b change neither linear
+/// nor angular momentum, neither do M x (to rounding), at any tolerance: every vector of the iteration is M^-1 times a
+/// sum of pair impulses. Other preconditioners do not have this property.
 int solve(PairMatrix& matrix, const std::vector<Vec3>& b, const Tolerance& tolerance, std::vector<Vec3>& x,
           SolverScratch& scratch);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <limits>
 
 #include "engine/core/parallel.h"
 
@@ -67,7 +68,7 @@ double cutoffRatio(const std::vector<Material>& materials) {
     return ratio;
 }
 
-ForceTerms termsFor(const ForceField& field, const Particles& particles) {
+ForceTerms termsFor(const ForceField& field, const Particles& particles, const Ranks& ranks) {
     ForceTerms terms;
     terms.oneLaw = isOneLaw(field.materials);
     terms.pair.equalReach = true;  // reaches that are equal in every material are equal in every mixture
@@ -79,7 +80,16 @@ ForceTerms termsFor(const ForceField& field, const Particles& particles) {
     }
     const std::vector<double>& radii = particles.radius;
     terms.oneRadius = allEqual(radii);
-    const double largest = radii.empty() ? 0.0 : terms.oneRadius ? radii.front() : largestOf(radii);
+    double largest = radii.empty() ? 0.0 : terms.oneRadius ? radii.front() : largestOf(radii);
+    if (ranks.areMany()) {
+        // Radii are equal if the largest of every rank's largest radii is also the smallest.
+        constexpr double kNone = std::numeric_limits<double>::infinity();
+        std::array bounds = {largest, radii.empty() ? -kNone : -largest, terms.oneRadius ? 0.0 : 1.0};
+        ranks.maximize(bounds);
+        largest = bounds[0];
+        terms.oneRadius = bounds[2] == 0.0 && (bounds[1] == -kNone || bounds[1] == -largest);
+    }
+    terms.largestRadius = largest;
     terms.cutoff = cutoffRatio(field.materials) * 2.0 * largest;
     return terms;
 }

@@ -7,6 +7,7 @@
 #include "engine/force_law/material.h"
 #include "engine/force_law/pair_law.h"
 #include "engine/obstacles/obstacles.h"
+#include "engine/ranks/ranks.h"
 #include "engine/state/particles.h"
 #include "engine/state/setup.h"
 
@@ -28,9 +29,10 @@ inline ForceField forceFieldOf(const Setup& setup) {
 /// with these terms only.
 struct ForceTerms {
     PairTerms pair{.attraction = false, .damping = false, .friction = false};
-    bool oneLaw = true;     ///< whether all materials have the same force law
-    bool oneRadius = true;  ///< whether all particles have the same radius
-    double cutoff = 0.0;    ///< distance at and beyond which no two particles interact, m
+    bool oneLaw = true;          ///< whether all materials have the same force law
+    bool oneRadius = true;       ///< whether all particles have the same radius
+    double largestRadius = 0.0;  ///< m; 0 without particles
+    double cutoff = 0.0;         ///< distance at and beyond which no two particles interact, m
 
     /// Whether all pairs of particles have the same constants.
     bool uniform() const { return oneLaw && oneRadius; }
@@ -42,7 +44,8 @@ bool isOneLaw(const std::vector<Material>& materials);
 /// The largest cutoff that a pair of these materials can have, in rest lengths (sums of the two radii).
 double cutoffRatio(const std::vector<Material>& materials);
 
-ForceTerms termsFor(const ForceField& field, const Particles& particles);
+/// The terms that the particles of all ranks need.
+ForceTerms termsFor(const ForceField& field, const Particles& particles, const Ranks& ranks = Ranks::alone());
 
 /// Up to this many materials, the mixtures of every two of them (see mixed()) are tabulated. A mixture of more
 /// materials is computed for each pair of particles that occurs: the table would grow with the square of their number,

@@ -7,9 +7,32 @@
 #include "engine/forces/pair_sums.h"
 
 namespace engine {
+namespace {
 
-ForceEvaluator::ForceEvaluator(ForceField field, ForceMethod method, Precision precision)
-    : field_(std::move(field)), method_(method), pairs_(field_, precision) {}
+/// Tells the matrix of one of many ranks which of its rows are of ghosts, and how their parts of a vector are fetched.
+void addGhosts(const PairTraversal& pairs, PairMatrix& matrix) {
+    matrix.ranks = pairs.ranks;
+    matrix.ghosts.clear();
+    for (std::uint32_t sortedIndex = 0; sortedIndex < pairs.list.count(); ++sortedIndex)
+        if (pairs.joint.order[sortedIndex] == kGhost) matrix.ghosts.push_back(sortedIndex);
+    matrix.fetchGhosts = [&pairs, own = std::vector<Vec3>(), all = std::vector<Vec3>()](std::vector<Vec3>& x) mutable {
+        const NeighborList& list = pairs.list;
+        own.resize(pairs.joint.halo.jointOf.size());
+        for (std::size_t sortedIndex = 0; sortedIndex < x.size(); ++sortedIndex)
+            if (pairs.joint.order[sortedIndex] != kGhost) own[pairs.joint.order[sortedIndex]] = x[sortedIndex];
+        share(*pairs.ranks, pairs.joint.halo, own, all);
+        for (std::size_t sortedIndex = 0; sortedIndex < x.size(); ++sortedIndex)
+            x[sortedIndex] = all[list.order[sortedIndex]];
+    };
+}
+
+}  // namespace
+
+ForceEvaluator::ForceEvaluator(ForceField field, ForceMethod method, Precision precision, const Ranks& ranks)
+    : field_(std::move(field)),
+      cutoffRatio_(cutoffRatio(field_.materials)),
+      method_(method),
+      pairs_(field_, precision, ranks) {}
 
 void ForceEvaluator::evaluatePairs(const Particles& particles, const std::vector<Vec3>& velocities,
                                    std::vector<Vec3>& forces, double step) {
@@ -44,9 +67,12 @@ double ForceEvaluator::assemble(const Particles& particles, const MatrixWeights&
     // Only the forces have a reference. The matrix always comes from the neighbor list, since over every pair of
     // particles its products would be the same sums.
     if (method_ == ForceMethod::reference) pairForcesReference(field_, particles, particles.velocity, forces);
-    matrix.mass.resize(particles.count());
-    inParallel(particles.count(), kParticleGrain,
-               [&](std::size_t sortedIndex) { matrix.mass[sortedIndex] = particles.mass[order()[sortedIndex]]; });
+    const Particles& listed = pairs_.ranks->areMany() ? pairs_.joint.particles : particles;
+    matrix.mass.resize(pairs_.list.count());
+    inParallel(matrix.mass.size(), kParticleGrain, [&](std::size_t sortedIndex) {
+        matrix.mass[sortedIndex] = listed.mass[pairs_.list.order[sortedIndex]];
+    });
+    if (pairs_.ranks->areMany()) addGhosts(pairs_, matrix);
     addGravity(particles, forces);
     return energy;
 }
@@ -55,26 +81,37 @@ void ForceEvaluator::renewList(const Particles& particles) {
     if (needsList()) pairs_.renewList(field_, particles, particles.velocity);
 }
 
+void ForceEvaluator::fetchGhosts(const Particles& particles) {
+    if (pairs_.ranks->areMany())
+        engine::fetchGhosts(*pairs_.ranks, particles.position, particles.velocity, pairs_.joint);
+}
+
 void ForceEvaluator::forgetList() {
-    pairs_.list.builtAt.clear();
-    pairs_.list.sortedIndexOf.clear();
+    discard(pairs_.list);
 }
 
 void ForceEvaluator::restoreList(const Particles& particles, const std::vector<Vec3>& builtAt, double cutoff,
                                  double skin) {
-    build(pairs_.list, builtAt, std::span(particles.radius).first(builtAt.size()), cutoff, skin);
+    pairs_.buildList(particles, builtAt, cutoff, skin);
 }
 
-bool ForceEvaluator::hasNoNeighborWithin(const std::vector<Vec3>& positions, double cutoff, std::size_t p,
-                                         std::uint32_t& cachedNeighbor) const {
+bool ForceEvaluator::hasNoNeighbor(const std::vector<Vec3>& positions, const std::vector<double>& radii, std::size_t p,
+                                   std::uint32_t& cachedNeighbor) const {
     const NeighborList& list = pairs_.list;
-    if (p >= list.sortedIndexOf.size()) return false;
-    const std::size_t known = std::min(positions.size(), list.sortedIndexOf.size());
+    const bool areMany = pairs_.ranks->areMany();
+    const JointParticles& joint = pairs_.joint;
+    if (p >= (areMany ? joint.halo.jointOf.size() : list.sortedIndexOf.size())) return false;
+    const std::vector<Vec3>& at = areMany ? joint.particles.position : positions;
+    const std::vector<double>& radius = areMany ? joint.particles.radius : radii;
+    const std::size_t self = areMany ? joint.halo.jointOf[p] : p;
+    const std::size_t known = std::min(at.size(), list.sortedIndexOf.size());
     const auto isNear = [&](std::uint32_t other) {
-        return other < known && squaredLength(positions[p] - positions[other]) < cutoff * cutoff;
+        if (other >= known) return false;
+        const double cutoff = cutoffRatio_ * (radius[self] + radius[other]);
+        return squaredLength(at[self] - at[other]) < cutoff * cutoff;
     };
-    if (cachedNeighbor != p && isNear(cachedNeighbor)) return false;
-    const std::size_t laneSlot = list.laneSlotOf(p);
+    if (cachedNeighbor != self && isNear(cachedNeighbor)) return false;
+    const std::size_t laneSlot = list.laneSlotOf(self);
     for (std::uint32_t k = 0; k < list.rows.length[laneSlot]; ++k) {
         const std::uint32_t other = list.order[list.rows.sortedIndexAt(laneSlot, k)];
         if (!isNear(other)) continue;

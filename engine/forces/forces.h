@@ -22,6 +22,10 @@ void pairForcesReference(const ForceField& field, const Particles& particles, co
 /// Energy of the conservative part of the force between particles p and i, in joules.
 double pairEnergyReference(const ForceField& field, const Particles& particles, std::size_t p, std::size_t i);
 
+/// The same for two particles of different sets.
+double pairEnergyReference(const ForceField& field, const Particles& ofP, std::size_t p, const Particles& ofI,
+                           std::size_t i);
+
 /// Sum of the energies of all pairs of particles, in joules.
 double pairEnergyReference(const ForceField& field, const Particles& particles);
 
@@ -32,7 +36,8 @@ double pairEnergyReference(const ForceField& field, const Particles& particles);
 class ForceEvaluator {
  public:
     ForceEvaluator() = default;
-    ForceEvaluator(ForceField field, ForceMethod method, Precision precision = Precision::doubles);
+    ForceEvaluator(ForceField field, ForceMethod method, Precision precision = Precision::doubles,
+                   const Ranks& ranks = Ranks::alone());
 
     /// The pair forces of equation 1 alone, N. The paper's stepper adds weight and obstacle forces to them
     /// (external_forces.h).
@@ -50,8 +55,8 @@ class ForceEvaluator {
                     PairMatrix& matrix, double step = 0.0);
 
     /// The indices of all particles in the order of the neighbor list, which is also the order of the matrix that was
-    /// assembled last.
-    const std::vector<std::uint32_t>& order() const { return pairs_.list.order; }
+    /// assembled last. With many ranks it has ghosts, too, with kGhost instead of an index.
+    const std::vector<std::uint32_t>& order() const { return pairs_.order(); }
 
     /// The neighbor list as it was last built.
     const NeighborList& list() const { return pairs_.list; }
@@ -59,8 +64,11 @@ class ForceEvaluator {
     /// Whether forces are summed over the neighbor list; the reference needs none.
     bool needsList() const { return method_ == ForceMethod::grid; }
 
-    /// Brings the neighbor list up to date if the method needs one.
+    /// Brings the neighbor list up to date, and the positions of ghosts, if the method needs a list.
     void renewList(const Particles& particles);
+
+    /// Brings the positions of ghosts up to date. Only needed where nothing else does.
+    void fetchGhosts(const Particles& particles);
 
     /// Discards the neighbor list. To be called when particles have got other indices.
     void forgetList();
@@ -75,13 +83,16 @@ class ForceEvaluator {
     const FarGroups& groups() const { return pairs_.groups; }
     void setGroups(FarGroups groups) { pairs_.groups = std::move(groups); }
 
-    /// Whether none of the listed neighbors of particle p is within a cutoff (m) of it, at the given positions (m). If
-    /// the neighbor list covers these positions, then no other particle acts on p either. False for a particle that was
-    /// emitted after the list was built and has no listed neighbors.
+    /// Whether no listed neighbor of particle p is so near that it acts on p. If the neighbor list covers the
+    /// particles' positions, then no other particle acts on p either. False for a particle that was emitted after the
+    /// list was built and has no listed neighbors.
+    /// @param positions       of the particles, m; with many ranks, those for which ghosts were fetched are used
+    /// instead
+    /// @param radii           of the particles, m
     /// @param cachedNeighbor  index of the particle that is tried first; set to the neighbor that was found. Any value
     ///                        is valid on entry, and the answer does not depend on it.
-    bool hasNoNeighborWithin(const std::vector<Vec3>& positions, double cutoff, std::size_t p,
-                             std::uint32_t& cachedNeighbor) const;
+    bool hasNoNeighbor(const std::vector<Vec3>& positions, const std::vector<double>& radii, std::size_t p,
+                       std::uint32_t& cachedNeighbor) const;
 
     /// Sum of the energies of the pairs in the neighbor list (conservative part of the force), in joules.
     double pairEnergyGrid(const Particles& particles);
@@ -92,6 +103,7 @@ class ForceEvaluator {
     void addGravity(const Particles& particles, std::vector<Vec3>& forces) const;
 
     ForceField field_;
+    double cutoffRatio_ = 0.0;  ///< largest cutoff of a pair, in sums of its radii
     ForceMethod method_ = ForceMethod::grid;
     PairTraversal pairs_;
 };

@@ -10,12 +10,11 @@ struct Pair {
     PairConstants<double> constants;
 };
 
-Pair pairOf(const ForceField& field, const Particles& particles, std::size_t p, std::size_t i) {
-    const double restLength = particles.radius[p] + particles.radius[i];
-    const Material material = mixed(field.materials[particles.material[p]], field.materials[particles.material[i]]);
-    Pair pair{particles.position[p] - particles.position[i], pairConstants<double>(material, restLength)};
-    if (squaredLength(pair.separation) == 0.0)
-        pair.separation = coincidentSeparation(particles.id[p], particles.id[i], restLength);
+Pair pairOf(const ForceField& field, const Particles& ofP, std::size_t p, const Particles& ofI, std::size_t i) {
+    const double restLength = ofP.radius[p] + ofI.radius[i];
+    const Material material = mixed(field.materials[ofP.material[p]], field.materials[ofI.material[i]]);
+    Pair pair{ofP.position[p] - ofI.position[i], pairConstants<double>(material, restLength)};
+    if (squaredLength(pair.separation) == 0.0) pair.separation = coincidentSeparation(ofP.id[p], ofI.id[i], restLength);
     return pair;
 }
 
@@ -36,7 +35,7 @@ void pairForcesReference(const ForceField& field, const Particles& particles, co
     for (std::size_t p = 0; p < particles.count(); ++p) {
         for (std::size_t i = 0; i < particles.count(); ++i) {
             if (i == p) continue;
-            const Pair pair = pairOf(field, particles, p, i);
+            const Pair pair = pairOf(field, particles, p, particles, i);
             const double distanceSq = squaredLength(pair.separation);
             const double approach = dot(velocities[p] - velocities[i], pair.separation);
             forces[p] += pairCoefficient<PairTerms{}>(distanceSq, approach, pair.constants) * pair.separation;
@@ -46,11 +45,16 @@ void pairForcesReference(const ForceField& field, const Particles& particles, co
 }
 
 double pairEnergyReference(const ForceField& field, const Particles& particles, std::size_t p, std::size_t i) {
-    const Pair pair = pairOf(field, particles, p, i);
+    return pairEnergyReference(field, particles, p, particles, i);
+}
+
+double pairEnergyReference(const ForceField& field, const Particles& ofP, std::size_t p, const Particles& ofI,
+                           std::size_t i) {
+    const Pair pair = pairOf(field, ofP, p, ofI, i);
     const double energy = pairEnergy(std::sqrt(squaredLength(pair.separation)), pair.constants);
     // The energy of a coincident pair is as far above U(0) as the energy at its stand-in separation is below it;
     // energyOf() in pair_sums.cpp gives the reason.
-    const bool isCoincident = particles.position[p] == particles.position[i];
+    const bool isCoincident = ofP.position[p] == ofI.position[i];
     return isCoincident ? 2.0 * pairEnergy(0.0, pair.constants) - energy : energy;
 }
 

@@ -5,6 +5,7 @@
 // conjugate_gradient.cpp and stepping/step_bound.cpp.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "engine/core/vec3.h"
@@ -34,6 +35,9 @@ struct PairMatrix {
     NeighborRows rows;                     ///< neighbors with an entry in the matrix, for each particle
     Entries along;                         ///< coefficients of P P^T, kg/m^2
     Entries across;                        ///< coefficients of the unit matrix, kg; empty without friction
+    std::vector<std::uint32_t> ghosts;     ///< rows of particles of other ranks, without entries
+    /// Fetches the parts of a vector that belong to ghosts from their ranks; only with many ranks.
+    std::function<void(std::vector<Vec3>&)> fetchGhosts;
 
     std::size_t count() const { return mass.size(); }
 

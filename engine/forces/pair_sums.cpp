@@ -120,9 +120,10 @@ double overClusters(const PairTraversal& pairs, bool hasEnergy, const SumCluster
     return hasEnergy ? exactSum(*pairs.ranks, count, [&](std::size_t laneSlot) { return energies[laneSlot]; }) : 0.0;
 }
 
-/// The force (N) on the particle in a lane slot of the neighbor list.
-Vec3& forceOn(const PairTraversal& pairs, std::size_t laneSlot, const PairSums& wanted) {
-    return wanted.forces[pairs.list.order[pairs.sortedIndexAt(laneSlot)]];
+/// Stores the force (N) on the particle in a lane slot of the neighbor list, unless it is a ghost.
+void storeForce(const PairTraversal& pairs, std::size_t laneSlot, const Vec3& force, const PairSums& wanted) {
+    const std::uint32_t p = pairs.order()[pairs.sortedIndexAt(laneSlot)];
+    if (p != kGhost) wanted.forces[p] = force;
 }
 
 /// Sums over all pairs with the scalar kernel; returns the pair energy, in joules.
@@ -131,7 +132,7 @@ double sumOneByOne(const PairTraversal& pairs, const PairSums& wanted) {
     return overClusters(pairs, variant.hasEnergy, [&](std::size_t first, std::size_t end, double* energies) {
         for (std::size_t laneSlot = first; laneSlot < end; ++laneSlot) {
             const ParticleSums sums = sumParticle<variant>(pairs, wanted, laneSlot);
-            forceOn(pairs, laneSlot, wanted) = sums.force;
+            storeForce(pairs, laneSlot, sums.force, wanted);
             if constexpr (variant.hasEnergy) energies[laneSlot - first] = sums.energy;
         }
     });
@@ -211,7 +212,7 @@ double sumInLanes(const PairTraversal& pairs, const PairSums& wanted) {
             withTerms(pairs.terms.pair,
                       [&]<PairTerms terms>() { correctCoincident<terms>(pairs, wanted, first, sums); });
         for (std::size_t lane = 0; lane < end - first; ++lane)
-            forceOn(pairs, first + lane, wanted) = Vec3(sums.x[lane], sums.y[lane], sums.z[lane]);
+            storeForce(pairs, first + lane, Vec3(sums.x[lane], sums.y[lane], sums.z[lane]), wanted);
         if (hasEnergy) std::copy_n(sums.energy.data(), end - first, energies);
     });
 }

@@ -2,9 +2,11 @@
 #include "engine/forces/pair_traversal.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
 
 #include "engine/core/bounding_box.h"
+#include "engine/core/random.h"
 
 namespace engine {
 namespace {
@@ -15,40 +17,101 @@ constexpr double kUnits = 8388608.0;
 
 /// Upper bound on the speed (m/s) of any particle relative to the motion that all particles, or all of its group, have
 /// in common. A common motion does not make a neighbor list outdated.
-double largestRelativeSpeed(const std::vector<Vec3>& velocities, const FarGroups& groups) {
+double largestRelativeSpeed(const Ranks& ranks, const std::vector<Vec3>& velocities, const FarGroups& groups) {
+    const std::vector<Vec3> common = ofLeaders(ranks, groups, [&](std::uint32_t leader) { return velocities[leader]; });
     const auto velocity = [&](std::size_t p) -> Vec3 {
-        return groups.exist() ? Vec3(velocities[p] - velocities[groups.leaders[groups.of(p)]]) : velocities[p];
+        return groups.exist() ? Vec3(velocities[p] - common[groups.of(p)]) : velocities[p];
     };
-    return farthestFrom(boundingBoxOf(velocities.size(), velocity).middle(), velocities.size(), velocity);
+    const Vec3 middle = overRanks(ranks, boundingBoxOf(velocities.size(), velocity)).middle();
+    return largestOfAll(ranks, farthestFrom(middle, velocities.size(), velocity));
 }
 
-/// Estimates the mean number of neighbors within the cutoff (m) from the number of listed neighbors, which lie within
-/// the larger reach of the list.
-/// @param reach  of the list for the pairs with this cutoff, m
-double neighborsWithin(double cutoff, double reach, const NeighborList& list) {
-    const double share = cutoff / reach;
-    return share * share * share * static_cast<double>(list.entryCount) / static_cast<double>(list.count());
+/// The share of the particles whose neighbors are counted is one in kSampled, chosen by their ids, or all if they are
+/// few. Chosen: the counts then take a hundredth of the time of the list.
+constexpr std::uint64_t kSampled = 32;
+constexpr std::uint64_t kFew = 4096;
+
+/// Numbers of particles and of their neighbors.
+struct NeighborCounts {
+    std::int64_t particles = 0;
+    std::int64_t neighbors = 0;
+
+    NeighborCounts& operator+=(const NeighborCounts& other) {
+        particles += other.particles;
+        neighbors += other.neighbors;
+        return *this;
+    }
+};
+
+/// Number of neighbors of the particle in a lane slot within the cutoff of each pair, where the list was built.
+/// @param particles  those that the list is of
+std::int64_t neighborCount(const NeighborList& list, std::size_t laneSlot, const Particles& particles,
+                           const SizeTable& sizes) {
+    const Candidates& at = list.scratch.candidates;
+    const auto self = static_cast<std::uint32_t>(list.rows.ownIndices[laneSlot]);
+    std::int64_t count = 0;
+    for (std::uint32_t k = 0; k < list.rows.length[laneSlot]; ++k) {
+        const std::uint32_t other = list.rows.sortedIndexAt(laneSlot, k);
+        double cutoff = list.cutoff;
+        if (!sizes.areEqual)
+            cutoff *= 0.5 * (particles.radius[list.order[self]] + particles.radius[list.order[other]]) /
+                      sizes.largestRadius();
+        const Vec3 apart(at.x[self] - at.x[other], at.y[self] - at.y[other], at.z[self] - at.z[other]);
+        count += squaredLength(apart) <= cutoff * cutoff ? 1 : 0;
+    }
+    return count;
 }
 
 }  // namespace
 
-PairTraversal::PairTraversal(const ForceField& field, Precision wanted)
-    : materials(field.materials), table(field.materials), precision(wanted) {}
+PairTraversal::PairTraversal(const ForceField& field, Precision wanted, const Ranks& ofRun)
+    : ranks(&ofRun), materials(field.materials), table(field.materials), precision(wanted) {}
 
 void PairTraversal::renewList(const ForceField& field, const Particles& particles, const std::vector<Vec3>& velocities,
                               double step) {
-    terms = termsFor(field, particles);
-    if (covers(list, particles.position, terms.cutoff, groups)) return;
-    const std::span<const double> radii = terms.oneRadius ? std::span<const double>{} : particles.radius;
-    // Where sizes differ much, the skin is chosen for the size of which there are most.
-    const double relativeRadius = typicalRelativeRadius(radii);
-    const double cutoff = relativeRadius * terms.cutoff;
-    double skin = kDefaultSkin;
-    if (step > 0.0 && list.count() > 0 && particles.count() > 0)
-        skin = optimalSkin(neighborsWithin(cutoff, relativeRadius * list.cutoff + list.skin, list),
-                           step * largestRelativeSpeed(velocities, groups) / cutoff);
-    build(list, particles.position, radii, terms.cutoff, skin * cutoff);
+    terms = termsFor(field, particles, *ranks);
+    if (!covers(list, particles.position, terms.cutoff, groups, *ranks)) {
+        // Where sizes differ much, the skin is chosen for the size of which there are most.
+        const double cutoff = typicalRelativeRadius(sizesOf(*ranks, particles.radius)) * terms.cutoff;
+        double skin = kDefaultSkin;
+        if (step > 0.0 && meanNeighbors && terms.largestRadius > 0.0)
+            skin = optimalSkin(*meanNeighbors, step * largestRelativeSpeed(*ranks, velocities, groups) / cutoff);
+        buildList(particles, particles.position, terms.cutoff, skin * cutoff);
+    }
+    if (ranks->areMany()) fetchGhosts(*ranks, particles.position, velocities, joint);
+}
+
+void PairTraversal::buildList(const Particles& particles, const std::vector<Vec3>& positions, double cutoff,
+                              double skin) {
+    const auto radii = std::span(particles.radius).first(positions.size());
+    const SizeTable sizes = sizesOf(*ranks, radii);
+    if (ranks->areMany()) {
+        findGhosts(*ranks, particles, positions, cutoff + skin, joint);
+        build(list, joint.particles.position, joint.particles.radius, cutoff, skin, sizes, joint.halo.isGhost);
+        list.builtAt = positions;
+        joint.order.clear();
+        for (const std::uint32_t j : list.order)
+            joint.order.push_back(joint.halo.isGhost[j] != 0 ? kGhost : joint.halo.ownOf[j]);
+        countNeighbors(joint.particles, sizes);
+    } else {
+        build(list, positions, radii, cutoff, skin, sizes, {});
+        countNeighbors(particles, sizes);
+    }
     isPacked = false;  // the new list has the particles in another order
+}
+
+void PairTraversal::countNeighbors(const Particles& listed, const SizeTable& sizes) {
+    const bool areFew = sumOfAll(*ranks, list.builtAt.size()) <= kFew;
+    const auto counts = sumOver<NeighborCounts>(list.count(), [&](std::size_t laneSlot) -> NeighborCounts {
+        const std::uint32_t p = list.order[static_cast<std::uint32_t>(list.rows.ownIndices[laneSlot])];
+        if (!areFew && scatter(listed.id[p]) % kSampled != 0) return {};
+        if (ranks->areMany() && joint.halo.isGhost[p] != 0) return {};
+        return {1, neighborCount(list, laneSlot, listed, sizes)};
+    });
+    std::array<std::int64_t, 2> sums = {counts.particles, counts.neighbors};
+    ranks->sum(sums);
+    meanNeighbors.reset();
+    if (sums[0] > 0) meanNeighbors = static_cast<double>(sums[1]) / static_cast<double>(sums[0]);
 }
 
 void PairTraversal::prepare(const ForceField& field, const Particles& particles, const std::vector<Vec3>& velocities,
@@ -56,17 +119,23 @@ void PairTraversal::prepare(const ForceField& field, const Particles& particles,
     renewList(field, particles, velocities, step);
     isPacked = false;
     packedFloat.clear();
-    if (particles.count() == 0) return;
+    if (list.count() == 0) return;
     const bool isFloat = hasLanes() && precision == Precision::singles;
     unit = isFloat ? list.reach() / kUnits : 1.0;
-    const double restLength = terms.oneRadius ? 2.0 * particles.radius.front() : 0.0;
-    table.fill(terms.pair, restLength);
+    table.fill(terms.pair, terms.oneRadius ? 2.0 * terms.largestRadius : 0.0);
     if (!isFloat) return packParticles(particles, velocities);
-    packFloats(list, particles, velocities, unit, packedFloat);
+    if (ranks->areMany())
+        packFloats(list, joint.particles, joint.velocities, unit, packedFloat);
+    else
+        packFloats(list, particles, velocities, unit, packedFloat);
 }
 
 void PairTraversal::packParticles(const Particles& particles, const std::vector<Vec3>& velocities) {
-    if (!isPacked) packDoubles(list, particles, velocities, packed);
+    if (isPacked) return;
+    if (ranks->areMany())
+        packDoubles(list, joint.particles, joint.velocities, packed);
+    else
+        packDoubles(list, particles, velocities, packed);
     isPacked = true;
 }
 

@@ -5,12 +5,14 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "engine/core/parallel.h"
 #include "engine/core/scratch.h"
 #include "engine/force_law/pair_law.h"
 #include "engine/forces/force_field.h"
+#include "engine/forces/joint_particles.h"
 #include "engine/forces/packed_particles.h"
 #include "engine/forces/pair_table.h"
 #include "engine/neighbors/neighbor_list.h"
@@ -26,7 +28,11 @@ struct PairTraversal {
     std::vector<Material> materials;
     ForceTerms terms;
     PairTable table;  ///< constants of the pairs of every two materials
+    /// The neighbor list; for one of many ranks, of the joint particles.
     NeighborList list;
+    /// Mean number of neighbors within the cutoff when the list was built; none before the first list with particles.
+    std::optional<double> meanNeighbors;
+    JointParticles joint;                      ///< of one of many ranks; empty for a run in one process
     FarGroups groups;                          ///< groups each of which may move as a whole without outdating the list
     Precision precision = Precision::doubles;  ///< precision of the pair forces where hasLanes()
     Scratch<std::vector<PackedParticle>> packed;  ///< particles in double; valid while isPacked
@@ -35,7 +41,7 @@ struct PairTraversal {
     bool isPacked = false;                        ///< whether `packed` holds the particles of the last prepare()
 
     PairTraversal() = default;
-    PairTraversal(const ForceField& field, Precision precision);
+    PairTraversal(const ForceField& field, Precision precision, const Ranks& ranks = Ranks::alone());
 
     /// Brings the neighbor list up to date and packs the particles for a pass.
     /// @param velocities  velocities that damping and friction are computed from, in m/s
@@ -47,9 +53,19 @@ struct PairTraversal {
     void renewList(const ForceField& field, const Particles& particles, const std::vector<Vec3>& velocities,
                    double step = 0.0);
 
+    /// Builds a neighbor list for the first of some particles at these positions (m). Part of renewList().
+    void buildList(const Particles& particles, const std::vector<Vec3>& positions, double cutoff, double skin);
+
+    /// Counts the neighbors of some of the listed particles. Part of buildList(). How many more the rows have is of no
+    /// use for a mean, because it depends on how they were searched.
+    void countNeighbors(const Particles& listed, const SizeTable& sizes);
+
     /// Packs the particles in double if prepare(), called before with the same arguments, has packed them in float
     /// only.
     void packParticles(const Particles& particles, const std::vector<Vec3>& velocities);
+
+    /// The rank's particle at each sorted index of the neighbor list, or kGhost.
+    const std::vector<std::uint32_t>& order() const { return ranks->areMany() ? joint.order : list.order; }
 
     /// Whether the SIMD kernels serve these particles: unless there are many materials with several laws.
     bool hasLanes() const { return !table.mixtures.empty(); }

@@ -85,9 +85,9 @@ HWY_EXPORT(findCellsHere);
 namespace {
 
 /// Fewest cells along an axis: the cells before and after each cell are then two. The order in which neighbors are
-/// found, and with it the last bits of forces, depends on the positions of the neighbors alone, not on the extent of the
-/// particles, of which a rank sees only its part.
-constexpr std::int64_t kFewestCells = 3;
+/// found, and with it the last bits of forces, depends on the positions of the neighbors alone, not on the extent of
+/// the particles, of which a rank sees only its part.
+constexpr double kFewestCells = 3.0;
 
 /// Largest number of cells: about two for each particle, so that the size of the grid is linear in the number of
 /// particles even if they are far apart.
@@ -102,7 +102,7 @@ std::array<std::int64_t, 3> chooseDimensions(const BoundingBox& extent, std::siz
         const double along = std::floor((extent.high[axis] - extent.low[axis]) / width) + 2.0;
         // std::min(limit, x) returns limit when x is NaN; the reverse order would not.
         dimensions[static_cast<std::size_t>(axis)] =
-            std::max(kFewestCells, static_cast<std::int64_t>(std::min(static_cast<double>(limit), along)));
+            static_cast<std::int64_t>(std::max(kFewestCells, std::min(static_cast<double>(limit), along)));
     }
     // Any larger number of cells gives correct neighbors. Halving the longest axis keeps cells that share storage far
     // apart, and leaves at least three, because an axis of four is not halved: 4 x 4 x 4 cells are within any limit.

@@ -78,7 +78,7 @@ void searchOwnClass(const NeighborList& list, const SizeClass& ownClass, const C
                 lengths);
 }
 
-/// Finds the neighbors of these particles in another class.
+/// Finds the neighbors of these particles in another class; each row has them in the order of their particle indices.
 void searchOtherClass(const NeighborList& list, const SizeClass& ownClass, const SizeClass& other, const CellRange& own,
                       FoundBlock& found, std::uint32_t* lengths) {
     const double reach = reachOf(list, ownClass, other);
@@ -92,7 +92,17 @@ void searchOtherClass(const NeighborList& list, const SizeClass& ownClass, const
     }
     for (CellRange& range : std::span(found.ranges).subspan(1))
         range = {range.begin + other.sorted.begin, range.end + other.sorted.begin};
+    std::size_t begin = found.parts.used;
     findInReach(candidates, found.ranges, own, ownCount, reach, found.scratch, found.parts, lengths);
+    // The order of the ranges depends on the extent of the other grid, of which a rank sees only a part.
+    const auto byParticle = [&](std::uint32_t one, std::uint32_t another) {
+        return list.order[one] < list.order[another];
+    };
+    for (const std::uint32_t length : std::span(lengths, ownCount)) {
+        const auto first = found.parts.sortedIndices.begin() + static_cast<std::ptrdiff_t>(begin);
+        std::sort(first, first + length, byParticle);
+        begin += length;
+    }
 }
 
 /// Appends the rows of `count` particles, which have been found in parts.
@@ -164,18 +174,30 @@ void search(const NeighborList& list, const CellRange& range, FoundBlock& found)
     }
 }
 
+/// The lengths of the rows of a block: as found, but 0 for ghosts, whose rows are not used.
+std::array<std::uint32_t, kSlotsPerBlock> lengthsOfRows(const NeighborList& list, const CellRange& range,
+                                                        const FoundBlock& found) {
+    std::array<std::uint32_t, kSlotsPerBlock> lengths = found.lengths;
+    const std::span<const std::uint8_t> isGhost = list.scratch.isGhost;
+    if (!isGhost.empty())
+        for (std::uint32_t k = range.begin; k < range.end; ++k)
+            if (isGhost[list.order[k]] != 0) lengths[k - range.begin] = 0;
+    return lengths;
+}
+
 /// Assigns the particles of a block to its lane slots. Returns the found row of each slot; nullptr in empty slots.
 std::array<const std::uint32_t*, kSlotsPerBlock> assignLaneSlots(NeighborList& list, const CellRange& range,
                                                                  const FoundBlock& found) {
     std::array<const std::uint32_t*, kSlotsPerBlock> rows = {};
     const std::uint32_t* next = found.rows.sortedIndices.data();
     const std::uint32_t count = range.end - range.begin;
-    const auto ranks = ranksOf(found.lengths.data(), count);
+    const auto lengths = lengthsOfRows(list, range, found);
+    const auto ranks = ranksOf(lengths.data(), count);
     for (std::uint32_t k = 0; k < count; ++k) {
         const std::uint32_t laneSlot = range.begin + ranks[k];
         rows[ranks[k]] = next;
         next += found.lengths[k];
-        list.rows.length[laneSlot] = found.lengths[k];
+        list.rows.length[laneSlot] = lengths[k];
         list.rows.ownIndices[laneSlot] = static_cast<std::int32_t>(range.begin + k);
     }
     return rows;
@@ -239,7 +261,7 @@ void fill(NeighborList& list, std::size_t number) {
 /// Puts the particles into the order of the cell grids and copies the positions in this order, for the search.
 void sortByCell(NeighborList& list, const std::vector<Vec3>& positions) {
     std::vector<SizeClass>& classes = list.scratch.classes;
-    if (classes.size() == 1) {
+    if (classes.size() == 1 && classes[0].members.empty()) {
         list.order.swap(classes[0].grid.order);
     } else {
         list.order.clear();
@@ -259,10 +281,9 @@ void sortByCell(NeighborList& list, const std::vector<Vec3>& positions) {
     });
 }
 
-/// Whether a list was built for `count` particles and reaches at least as far as a cutoff (m). A discarded list still
-/// has its order, but no positions.
+/// Whether a list was built for `count` particles and reaches at least as far as a cutoff (m).
 bool isOf(const NeighborList& list, std::size_t count, double cutoff) {
-    return count == list.builtAt.size() && count == list.count() && cutoff <= list.reach();
+    return count == list.builtAt.size() && cutoff <= list.reach();
 }
 
 /// Distance by which each particle may have moved since the neighbor list was built, relative to the common motion, in
@@ -274,18 +295,17 @@ double slackOf(const NeighborList& list, double cutoff) {
 /// Whether all particles have moved by at most the slack (m) relative to their group, no two groups are within the
 /// cutoff (m), and none were within the list's reach when it was built. Pairs within a group are then listed, no others
 /// act on each other, and no listed pair moves far apart with its groups.
-bool coversGroups(const NeighborList& list, const std::vector<Vec3>& positions, double cutoff, double slack,
-                  const FarGroups& groups) {
+bool coversGroups(const Ranks& ranks, const NeighborList& list, const std::vector<Vec3>& positions, double cutoff,
+                  double slack, const FarGroups& groups) {
     const auto displacement = [&](std::size_t p) -> Vec3 { return positions[p] - list.builtAt[p]; };
-    std::vector<Vec3> common;  // displacement of each group
-    for (const std::uint32_t leader : groups.leaders) {
-        const Vec3 moved = displacement(leader);
-        common.push_back(squaredLength(moved) > slack * slack ? moved : Vec3(Vec3::Zero()));
-    }
+    std::vector<Vec3> common = ofLeaders(ranks, groups, displacement);
+    for (Vec3& moved : common)
+        if (squaredLength(moved) <= slack * slack) moved = Vec3::Zero();
     const auto relative = [&](std::size_t p) -> Vec3 { return displacement(p) - common[groups.of(p)]; };
     const std::vector<Vec3> still(groups.count(), Vec3::Zero());
-    return areWithin(slack, Vec3::Zero(), positions.size(), relative) &&
-           stayApart(groups, list.builtAt, still, list.reach()) && stayApart(groups, positions, still, cutoff);
+    return holdsOnAll(ranks, areWithin(slack, Vec3::Zero(), positions.size(), relative)) &&
+           stayApart(ranks, groups, list.builtAt, still, list.reach()) &&
+           stayApart(ranks, groups, positions, still, cutoff);
 }
 
 /// Cost per particle and time step of building a neighbor list and of the passes over it, in the cost of one pair.
@@ -308,10 +328,16 @@ std::size_t bytesHeld(const Vectors&... vectors) {
 
 void build(NeighborList& list, const std::vector<Vec3>& positions, std::span<const double> radii, double cutoff,
            double skin) {
+    build(list, positions, radii, cutoff, skin, sizesOf(Ranks::alone(), radii), {});
+}
+
+void build(NeighborList& list, const std::vector<Vec3>& positions, std::span<const double> radii, double cutoff,
+           double skin, const SizeTable& sizes, std::span<const std::uint8_t> isGhost) {
     list.cutoff = cutoff;
     list.skin = skin;
+    list.scratch.isGhost = isGhost;
     copy(positions, list.builtAt);
-    divideBySize(radii, positions.size(), list.scratch.classes);
+    divideBySize(sizes, radii, positions.size(), list.scratch.classes);
     for (SizeClass& sizeClass : list.scratch.classes)
         buildGrid(sizeClass, positions, reachOf(list, sizeClass, sizeClass));
     sortByCell(list, positions);
@@ -324,6 +350,16 @@ void build(NeighborList& list, const std::vector<Vec3>& positions, std::span<con
     list.entryCount = std::accumulate(list.rows.length.begin(), list.rows.length.end(), std::size_t{0});
 }
 
+void discard(NeighborList& list) {
+    list.order.clear();
+    list.sortedIndexOf.clear();
+    list.builtAt.clear();
+    list.rows.ownIndices.clear();
+    list.rows.length.clear();
+    list.rows.blocks.clear();
+    list.entryCount = 0;
+}
+
 std::size_t NeighborList::laneSlotOf(std::size_t p) const {
     // This is called for few particles. Storing the lane slots of all particles would take longer than these searches.
     const std::uint32_t sortedIndex = sortedIndexOf[p];
@@ -332,22 +368,27 @@ std::size_t NeighborList::laneSlotOf(std::size_t p) const {
     return laneSlot;
 }
 
-bool covers(const NeighborList& list, const std::vector<Vec3>& positions, double cutoff, const FarGroups& groups) {
-    if (!isOf(list, positions.size(), cutoff)) return false;
-    if (positions.empty()) return true;
+bool covers(const NeighborList& list, const std::vector<Vec3>& positions, double cutoff, const FarGroups& groups,
+            const Ranks& ranks) {
     const double slack = slackOf(list, cutoff);
     const auto displacement = [&](std::size_t p) -> Vec3 { return positions[p] - list.builtAt[p]; };
+    const bool isKnown = isOf(list, positions.size(), cutoff);
     // The usual case is that no particle has moved far.
-    if (areWithin(slack, Vec3::Zero(), positions.size(), displacement)) return true;
-    if (groups.exist() && coversGroups(list, positions, cutoff, slack, groups)) return true;
+    const bool areNear = isKnown && areWithin(slack, Vec3::Zero(), positions.size(), displacement);
+    std::array<double, 2> fails = {isKnown ? 0.0 : 1.0, areNear ? 0.0 : 1.0};
+    ranks.maximize(fails);
+    if (fails[0] != 0.0) return false;
+    if (fails[1] == 0.0) return true;
+    if (groups.exist() && coversGroups(ranks, list, positions, cutoff, slack, groups)) return true;
     // If the displacements of two particles differ by more than 2 * slack, no common translation brings both within
     // slack. The newest particles are tested first, because they are often the fastest.
     const std::size_t some = std::min(positions.size(), kSumChunk);
     const BoundingBox newest =
         boundingBoxOf(some, [&](std::size_t p) { return displacement(positions.size() - some + p); });
     constexpr double kMargin = 1.0 + 1e-6;  // chosen: far above the rounding errors of the test below
-    if ((newest.high - newest.low).maxCoeff() > 2.0 * kMargin * slack) return false;
-    return areWithin(slack, boundingBoxOf(positions.size(), displacement).middle(), positions.size(), displacement);
+    if (!holdsOnAll(ranks, (newest.high - newest.low).maxCoeff() <= 2.0 * kMargin * slack)) return false;
+    const Vec3 middle = overRanks(ranks, boundingBoxOf(positions.size(), displacement)).middle();
+    return holdsOnAll(ranks, areWithin(slack, middle, positions.size(), displacement));
 }
 
 double optimalSkin(double neighbors, double displacement) {

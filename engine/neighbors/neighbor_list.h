@@ -19,6 +19,7 @@ namespace engine {
 /// Work memory for building a neighbor list.
 struct BuildScratch {
     std::vector<SizeClass> classes;  ///< largest particles first; a single class' order belongs to an earlier list
+    std::span<const std::uint8_t> isGhost;  ///< by particle index, during build(); empty if none is
     Candidates candidates;
 };
 
@@ -31,7 +32,7 @@ struct NeighborList {
     std::vector<std::uint32_t> sortedIndexOf;  ///< sorted index of each particle index
     NeighborRows rows;                         ///< neighbors of the particle in each lane slot
     std::size_t entryCount = 0;                ///< sum of the lengths of all rows
-    std::vector<Vec3> builtAt;                 ///< positions by particle index when the list was built, m
+    std::vector<Vec3> builtAt;                 ///< positions by particle index when the list was built, m; see build()
     double cutoff = 0.0;                       ///< cutoff of the largest particles, m
     double skin = 0.0;                         ///< m
     Scratch<BuildScratch> scratch;
@@ -55,10 +56,24 @@ struct NeighborList {
 void build(NeighborList& list, const std::vector<Vec3>& positions, std::span<const double> radii, double cutoff,
            double skin);
 
+/// Builds the list of one of many ranks: its own particles and ghosts, particles of other ranks, together in ascending
+/// order of their ids. Ghosts are neighbors, but get empty rows. The rows of the rank's own particles have the same
+/// neighbors in the same order as in the list of a run in one process, except for neighbors so far away that float may
+/// list them or not. To use covers(), the caller then restricts builtAt to the rank's own particles.
+/// @param sizes    of the particles of all ranks
+/// @param isGhost  by particle index, 0 or 1; empty if none is a ghost
+void build(NeighborList& list, const std::vector<Vec3>& positions, std::span<const double> radii, double cutoff,
+           double skin, const SizeTable& sizes, std::span<const std::uint8_t> isGhost);
+
+/// Empties a list. It then covers no particles.
+void discard(NeighborList& list);
+
 /// Whether a neighbor list certainly contains every pair of particles that act on each other at these positions (m).
 /// @param cutoff  of the largest particles, m
 /// @param groups  groups each of which may have moved as a whole, if they are farther apart than the cutoff
-bool covers(const NeighborList& list, const std::vector<Vec3>& positions, double cutoff, const FarGroups& groups = {});
+/// @param ranks   the answer is for all of them: whether each one's list covers its positions
+bool covers(const NeighborList& list, const std::vector<Vec3>& positions, double cutoff, const FarGroups& groups = {},
+            const Ranks& ranks = Ranks::alone());
 
 /// Skin, as a share of the cutoff, for use where the speed of the particles is not known. Chosen: about the best for a
 /// liquid.

@@ -1,6 +1,10 @@
 // A run in one process, and reductions of single values.
 #include "engine/ranks/ranks.h"
 
+#include <array>
+#include <cmath>
+#include <limits>
+
 namespace engine {
 
 const Ranks& Ranks::alone() {
@@ -15,6 +19,19 @@ bool holdsOnAll(const Ranks& ranks, bool holds) {
 double largestOfAll(const Ranks& ranks, double number) {
     ranks.maximize({&number, 1});
     return number;
+}
+
+BoundingBox overRanks(const Ranks& ranks, BoundingBox box) {
+    if (!ranks.areMany()) return box;
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    std::array<double, 6> bounds;  // the lower ones with a minus, for maximize()
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto at = static_cast<Eigen::Index>(axis);
+        bounds.at(axis) = std::isnan(box.low[at]) ? kInfinity : -box.low[at];
+        bounds.at(axis + 3) = std::isnan(box.high[at]) ? kInfinity : box.high[at];
+    }
+    ranks.maximize(bounds);
+    return {{-bounds[0], -bounds[1], -bounds[2]}, {bounds[3], bounds[4], bounds[5]}};
 }
 
 std::uint64_t sumOfAll(const Ranks& ranks, std::uint64_t number) {

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "engine/core/bounding_box.h"
+
 namespace engine {
 
 /// Bytes to send to another rank, or room for those that it sends.
@@ -36,13 +38,17 @@ class Ranks {
     /// Sends one number to each rank, and returns the number that each rank sends to this one.
     virtual std::vector<std::int64_t> swapNumbers(const std::vector<std::int64_t>& numbers) const { return numbers; }
 
-    /// Returns the numbers of all ranks, those of rank 0 first. All ranks give equally many.
+    /// Returns the numbers of all ranks, those of rank 0 first. The ranks may give different amounts of numbers.
     virtual std::vector<double> gatherAll(const std::vector<double>& numbers) const { return numbers; }
 
     /// Sends messages to other ranks and receives theirs, of sizes that both sides know. At most one message each way
     /// is for the same rank.
     virtual void swap(const std::vector<Message<const std::byte>>& /*toSend*/,
                       const std::vector<Message<std::byte>>& /*toReceive*/) const {}
+
+    /// The rank that a particle at this position (m) is to be moved to, or emitted on. Not collective: all ranks give
+    /// the same answer.
+    virtual int ownerOf(const Vec3& /*position*/) const { return 0; }
 
     /// A run in one process.
     static const Ranks& alone();
@@ -53,6 +59,9 @@ bool holdsOnAll(const Ranks& ranks, bool holds);
 
 /// The largest number of any rank; not for NaN.
 double largestOfAll(const Ranks& ranks, double number);
+
+/// The smallest box that contains the boxes of all ranks, without bounds on a side where a box has a NaN.
+BoundingBox overRanks(const Ranks& ranks, BoundingBox box);
 
 /// The sum over the ranks.
 std::uint64_t sumOfAll(const Ranks& ranks, std::uint64_t number);

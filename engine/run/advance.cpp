@@ -11,13 +11,17 @@
 
 namespace engine {
 
-Simulation start(const Setup& setup) {
+Simulation start(const Setup& setup, const Ranks& ranks) {
     Simulation simulation;
     simulation.setup = setup;
+    simulation.ranks = &ranks;
     simulation.setup.obstacles.index = indexOf(setup.obstacles);
     simulation.stepper = setup.stepper == StepperKind::automatic ? StepperKind::velocityVerlet : setup.stepper;
-    simulation.cache->evaluator = ForceEvaluator(forceFieldOf(simulation.setup), setup.forces, setup.precision);
+    simulation.cache->evaluator = ForceEvaluator(forceFieldOf(simulation.setup), setup.forces, setup.precision, ranks);
     simulation.particles = setup.initial;
+    if (ranks.areMany())
+        keepWhere(simulation.particles,
+                  [&](std::size_t p) { return ranks.ownerOf(setup.initial.position[p]) == ranks.own(); });
     for (const Emitter& emitter : setup.emitters) simulation.emitters.push_back(initialState(emitter));
     emitDue(simulation);
     renewGroups(simulation);

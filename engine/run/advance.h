@@ -7,7 +7,8 @@
 namespace engine {
 
 /// Returns a simulation at time zero, which includes the particles that emitters emit at that time.
-Simulation start(const Setup& setup);
+/// @param ranks  the processes that share its particles; each keeps those that it is the owner of
+Simulation start(const Setup& setup, const Ranks& ranks = Ranks::alone());
 
 /// Advances the simulation to the given time (s), which is reached exactly. The paper's stepper takes equal steps that
 /// are no longer than the setup's step; with all other steppers, steps that gain energy or move a particle too far

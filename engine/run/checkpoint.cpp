@@ -20,7 +20,7 @@ static_assert(std::endian::native == std::endian::little, "checkpoints are littl
 
 /// Version of the checkpoint format: kCheckpointMark in ASCII and a digit or capital, another for every change of
 /// what is stored.
-constexpr std::uint64_t kFormat = 0x41504B434C424C47;
+constexpr std::uint64_t kFormat = 0x42504B434C424C47;
 
 constexpr std::size_t kChecksumBytes = 8;
 
@@ -141,7 +141,7 @@ void exchangeAutomatic(Archive& archive, State& state) {
         archive(steps.step, steps.stepBefore, steps.ratioBefore, steps.calibration, steps.isCalibrated);
     auto& twin = state.twin;
     archive(twin.exists, twin.stepper, twin.start, twin.end, twin.step, twin.estimate, twin.cost);
-    archive(twin.position, twin.id, twin.runCost, twin.runEstimate);
+    archive(twin.runCost, twin.runEstimate);
     archive(state.intervalCount, state.twinCount, state.lastTwin, state.nextTwin, state.nextCandidate);
     archive(state.runCostPerSecond, state.costAtTwin, state.isLimited, state.isSecond, state.lastCandidate);
     archive(state.errorSum, state.largestError, state.estimateCost);
@@ -155,20 +155,28 @@ void exchangeStatistics(Archive& archive, Statistics& steps) {
     for (auto& count : steps.takenBy) archive(count);
 }
 
-/// Passes on everything but the neighbor list.
+/// Passes on what is not of a particle, without the neighbor list.
 template <class Archive, class State>
-void exchange(Archive& archive, State& simulation) {
-    forEachArray(simulation.particles, archive);
+void exchangeCommon(Archive& archive, State& simulation) {
     archive(simulation.particles.nextId);
     exchangeEmitters(archive, simulation.emitters);
     archive(simulation.removedCount, simulation.largestCountBeforeRemoval, simulation.time, simulation.stepper);
-    archive(simulation.cache->forces, simulation.cache->forcesCurrent);
+    archive(simulation.cache->forcesCurrent);
     exchangeOptional(archive, simulation.cache->energy);
-    archive(simulation.cache->kinetic, simulation.cache->meanAccelerations, simulation.cache->lastStep);
+    archive(simulation.cache->kinetic, simulation.cache->lastStep);
     archive(simulation.restriction.seconds, simulation.restriction.reason, simulation.restriction.passed);
     exchangeAutomatic(archive, simulation.automatic);
     exchangeStatistics(archive, simulation.steps);
     archive(simulation.wallDepths.deepest, simulation.wallDepths.centersOutside);
+}
+
+/// Passes on everything but the neighbor list.
+template <class Archive, class State>
+void exchange(Archive& archive, State& simulation) {
+    forEachArray(simulation.particles, archive);
+    archive(simulation.cache->forces, simulation.cache->meanAccelerations);
+    archive(simulation.automatic.twin.position, simulation.automatic.twin.id);
+    exchangeCommon(archive, simulation);
 }
 
 /// Hash of the numbers of materials, emitters and schedules: a checkpoint fits a setup only if the hashes agree.
@@ -184,11 +192,27 @@ void require(bool condition, const char* otherwise) {
 
 }  // namespace
 
+std::vector<std::uint8_t> encodeCommon(const Simulation& simulation) {
+    Writer writer;
+    exchangeCommon(writer, simulation);
+    return writer.finish();
+}
+
+void decodeCommon(std::span<const std::uint8_t> bytes, Simulation& simulation) {
+    Reader reader(bytes);
+    exchangeCommon(reader, simulation);
+    reader.finish();
+}
+
 std::vector<std::uint8_t> encodeCheckpoint(const Simulation& simulation) {
+    const NeighborList& list = simulation.cache->evaluator.list();
+    return encodeCheckpoint(simulation, {list.builtAt, list.cutoff, list.skin});
+}
+
+std::vector<std::uint8_t> encodeCheckpoint(const Simulation& simulation, const ListOrigin& list) {
     Writer writer;
     writer(kFormat, shapeOf(simulation));
     exchange(writer, simulation);
-    const NeighborList& list = simulation.cache->evaluator.list();
     writer(list.builtAt, list.cutoff, list.skin);
     return writer.finish();
 }

@@ -26,8 +26,22 @@ class CheckpointError : public std::runtime_error {
 /// (FNV-1a) of the bytes before.
 std::vector<std::uint8_t> encodeCheckpoint(const Simulation& simulation);
 
+/// What a neighbor list was built for.
+struct ListOrigin {
+    std::vector<Vec3> builtAt;  ///< positions of the first particles, m
+    double cutoff = 0.0;        ///< m
+    double skin = 0.0;          ///< m
+};
+
+/// The same with a neighbor list that the simulation does not have.
+std::vector<std::uint8_t> encodeCheckpoint(const Simulation& simulation, const ListOrigin& list);
+
 /// Restores a simulation from its setup and an encoded state. The run continues with the same bits as the encoded run.
 /// @throws CheckpointError if the bytes are damaged or belong to a setup with other materials or emitters
 Simulation decodeCheckpoint(const Setup& setup, std::span<const std::uint8_t> bytes);
+
+/// The part of a simulation that is not of its particles: the same on all ranks.
+std::vector<std::uint8_t> encodeCommon(const Simulation& simulation);
+void decodeCommon(std::span<const std::uint8_t> bytes, Simulation& simulation);
 
 }  // namespace engine

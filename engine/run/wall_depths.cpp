@@ -25,13 +25,14 @@ double depthOf(const Simulation& simulation, std::size_t p) {
 void recordWallDepths(Simulation& simulation) {
     if (simulation.setup.obstacles.shapes.empty()) return;
     const std::size_t count = simulation.particles.count();
-    const double deepest = largestOver(count, [&](std::size_t p) { return depthOf(simulation, p); });
+    const double deepest =
+        largestOfAll(*simulation.ranks, largestOver(count, [&](std::size_t p) { return depthOf(simulation, p); }));
     WallDepths& depths = simulation.wallDepths;
     depths.deepest = std::max(depths.deepest, deepest);
     if (deepest <= 1.0) return;
     const auto outside = sumOver<std::uint64_t>(
         count, [&](std::size_t p) -> std::uint64_t { return depthOf(simulation, p) > 1.0 ? 1 : 0; });
-    depths.centersOutside = std::max(depths.centersOutside, outside);
+    depths.centersOutside = std::max(depths.centersOutside, sumOfAll(*simulation.ranks, outside));
 }
 
 }  // namespace engine

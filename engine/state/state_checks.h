@@ -32,8 +32,8 @@ inline bool isValid(const Vec3& position, const Vec3& velocity) {
     return areBelow(position, kWorldLimit) && areBelow(velocity, kFastest);
 }
 
-/// Whether the positions and velocities of all particles are valid.
-bool isValid(const Particles& particles);
+/// Whether the positions and velocities of the particles of all ranks are valid.
+bool isValid(const Simulation& simulation);
 
 /// Throws an InstabilityError that names the first particle with an invalid position or velocity or, if there is none,
 /// the fastest particle.

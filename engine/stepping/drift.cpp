@@ -56,12 +56,13 @@ void prepareDrift(Simulation& simulation) {
     copy(particles.position, cache.startPositions);
     // The cutoff is computed from the present particles. The cutoff of the last force evaluation would not do, since a
     // resumed run has not made that evaluation.
-    cache.startCutoff = termsFor(cache.evaluator.forceField(), particles).cutoff;
+    const auto cutoff = [&] { return termsFor(cache.evaluator.forceField(), particles, *simulation.ranks).cutoff; };
     // A Verlet stepper has evaluated the forces at the start of the step, and with them has brought the neighbor list
     // up to date if the force method uses one.
     cache.startIsListed =
         (isVerlet(simulation.stepper) && cache.evaluator.needsList()) ||
-        covers(cache.evaluator.list(), cache.startPositions, cache.startCutoff, cache.evaluator.groups());
+        covers(cache.evaluator.list(), cache.startPositions, cutoff(), cache.evaluator.groups(), *simulation.ranks);
+    if (cache.startIsListed && !isVerlet(simulation.stepper)) cache.evaluator.fetchGhosts(particles);
 }
 
 Vec3 chooseSweptContact(Simulation& simulation, std::size_t p, double h) {
@@ -78,8 +79,8 @@ Vec3 chooseSweptContact(Simulation& simulation, std::size_t p, double h) {
     // the obstacle acts on it, so that this is nearly exact. With neighbors, the contact is coupled to the forces in
     // the heap around the particle.
     const auto hasNoNeighbor = [&] {
-        return cache.startIsListed && cache.evaluator.hasNoNeighborWithin(cache.startPositions, cache.startCutoff, p,
-                                                                          cache.cachedNeighbors[p]);
+        return cache.startIsListed && cache.evaluator.hasNoNeighbor(cache.startPositions, simulation.particles.radius,
+                                                                    p, cache.cachedNeighbors[p]);
     };
     if (!contacts.needsSweep && !(pathLength > contacts.gap && hasNoNeighbor())) return contacts.force;
     cache.swept[p] = 1;
@@ -131,12 +132,12 @@ void addContacts(const Simulation& simulation, double h, PairMatrix& matrix) {
     const Particles& particles = simulation.particles;
     const Obstacles& obstacles = simulation.setup.obstacles;
     const MatrixWeights weights{0.5 * h, 0.25 * h * h};
-    matrix.own.resize(obstacles.shapes.empty() ? 0 : particles.count());
     const std::vector<std::uint32_t>& order = simulation.cache->evaluator.order();
+    matrix.own.resize(obstacles.shapes.empty() ? 0 : order.size());
     inParallel(matrix.own.size(), contactGrain(obstacles), [&](std::size_t place) {
         matrix.own[place] = Matrix3::Zero();
         const std::size_t p = order[place];
-        if (simulation.cache->swept[p] || isClearOfObstacles(simulation, p)) return;
+        if (p == kGhost || simulation.cache->swept[p] || isClearOfObstacles(simulation, p)) return;
         const Probe probe = probeOf(simulation, p, particles.velocity[p]);
         forEachTouched(obstacles, probe.position, probe.radius, [&](const Surface& surface) {
             const Contact contact = contactWith(surface, obstacles, probe);

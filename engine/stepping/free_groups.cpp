@@ -17,15 +17,17 @@ constexpr double kFar = 32.0;
 /// Distance (m) beyond which no two particles act on or touch each other.
 double interactionRange(const Simulation& simulation) {
     const Particles& particles = simulation.particles;
-    const double largest = largestOver(particles.count(), [&](std::size_t p) { return particles.radius[p]; });
-    return std::max(2.0 * largest, termsFor(simulation.cache->evaluator.forceField(), particles).cutoff);
+    const ForceTerms terms = termsFor(simulation.cache->evaluator.forceField(), particles, *simulation.ranks);
+    return std::max(2.0 * terms.largestRadius, terms.cutoff);
 }
 
 }  // namespace
 
 void renewGroups(Simulation& simulation) {
     StepCache& cache = *simulation.cache;
-    cache.evaluator.setGroups(findFarGroups(simulation.particles.position, kFar * interactionRange(simulation)));
+    const Particles& particles = simulation.particles;
+    cache.evaluator.setGroups(
+        findFarGroups(*simulation.ranks, particles.position, particles.id, kFar * interactionRange(simulation)));
     cache.groupEnergies = groupEnergies(simulation);
 }
 
@@ -55,17 +57,26 @@ std::vector<bool> groupsInFreeFall(const Simulation& simulation, const std::vect
     std::vector<bool> areFree(groups.count(), true);
     for (std::size_t p = 0; p < groups.groupOf.size(); ++p)
         if (areFree[groups.groupOf[p]] && !hadFreePath(simulation, p, before[p])) areFree[groups.groupOf[p]] = false;
+    if (!simulation.ranks->areMany()) return areFree;
+    std::vector<double> numbers;
+    for (const bool isFree : areFree) numbers.push_back(isFree ? 0.0 : 1.0);
+    simulation.ranks->maximize(numbers);
+    for (std::size_t group = 0; group < numbers.size(); ++group) areFree[group] = numbers[group] == 0.0;
     return areFree;
+}
+
+std::vector<Vec3> motionsOfGroups(const Simulation& simulation, const std::vector<Vec3>& before) {
+    return ofLeaders(*simulation.ranks, simulation.cache->evaluator.groups(), [&](std::uint32_t leader) -> Vec3 {
+        return simulation.particles.position[leader] - before[leader];
+    });
 }
 
 bool haveStayedApart(const Simulation& simulation, const std::vector<Vec3>& before) {
     const FarGroups& groups = simulation.cache->evaluator.groups();
-    std::vector<Vec3> motions;
-    for (const std::uint32_t leader : groups.leaders)
-        motions.push_back(simulation.particles.position[leader] - before[leader]);
     // The margin is the range itself and two radii, which are at most a range, for each of the two groups: a particle
     // that stayed within its radius of its old place is within two of where its group's motion has carried it.
-    return stayApart(groups, before, motions, 3.0 * interactionRange(simulation));
+    return stayApart(*simulation.ranks, groups, before, motionsOfGroups(simulation, before),
+                     3.0 * interactionRange(simulation));
 }
 
 }  // namespace engine

@@ -21,6 +21,10 @@ std::vector<GroupEnergy> groupEnergies(const Simulation& simulation);
 /// @param before  positions before the step, in meters
 std::vector<bool> groupsInFreeFall(const Simulation& simulation, const std::vector<Vec3>& before);
 
+/// How far each group's leader has moved in a step, m.
+/// @param before  positions before the step, in meters
+std::vector<Vec3> motionsOfGroups(const Simulation& simulation, const std::vector<Vec3>& before);
+
 /// Whether no two groups have come near each other in a step in which every particle stayed within its radius of where
 /// its group's first particle carried it.
 /// @param before  positions before the step, in meters

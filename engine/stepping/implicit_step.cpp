@@ -22,12 +22,17 @@ void solveForChange(Simulation& simulation, double h) {
     scratch.rightHandSide.resize(order.size());
     const Vec3 fall = 0.5 * h * simulation.setup.gravity;
     inParallel(order.size(), kParticleGrain, [&](std::size_t place) {
+        if (order[place] == kGhost) {
+            scratch.rightHandSide[place] = Vec3::Zero();
+            return;
+        }
         scratch.rightHandSide[place] =
             0.5 * h * simulation.cache->forces[order[place]] - scratch.matrix.mass[place] * fall;
         if (!scratch.matrix.own.empty()) scratch.rightHandSide[place] -= scratch.matrix.own[place] * fall;
     });
-    const double mass =
-        exactSum(*simulation.ranks, order.size(), [&](std::size_t place) { return scratch.matrix.mass[place]; });
+    const double mass = exactSum(*simulation.ranks, order.size(), [&](std::size_t place) {
+        return order[place] == kGhost ? 0.0 : scratch.matrix.mass[place];
+    });
     const Tolerance tolerance = {simulation.setup.solverTolerance,
                                  0.5 * h * simulation.cache->toleratedAcceleration * std::sqrt(mass)};
     const int products = solve(scratch.matrix, scratch.rightHandSide, tolerance, scratch.change, scratch.solver);
@@ -49,8 +54,9 @@ void kick(Simulation& simulation, double h, const MatrixWeights& weights) {
     const std::vector<std::uint32_t>& order = simulation.cache->evaluator.order();
     const std::vector<Vec3>& change = simulation.cache->implicit.change;
     const auto addChange = [&] {
-        inParallel(order.size(), kParticleGrain,
-                   [&](std::size_t place) { particles.velocity[order[place]] += change[place]; });
+        inParallel(order.size(), kParticleGrain, [&](std::size_t place) {
+            if (order[place] != kGhost) particles.velocity[order[place]] += change[place];
+        });
     };
     addChange();
     recordEnergy(simulation, pairEnergy);  // at this point the velocities are those in the middle of the step
@@ -69,7 +75,7 @@ void implicitStep(Simulation& simulation, double h, const MatrixWeights& weights
         drift(simulation, p, 0.5 * h);
         particles.velocity[p] *= decay;
     });
-    if (!isValid(particles)) return markInvalid(simulation);
+    if (!isValid(simulation)) return markInvalid(simulation);
     kick(simulation, h, weights);
     inParallel(particles.count(), grain, [&](std::size_t p) {
         particles.velocity[p] *= decay;

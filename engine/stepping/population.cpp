@@ -37,7 +37,7 @@ double largestRadiusOf(const Simulation& simulation) {
     for (const double radius : simulation.particles.radius) largest = std::max(largest, radius);
     for (const Emitter& emitter : simulation.setup.emitters)
         largest = std::max(largest, simulation.setup.materials[emitter.material].radius);
-    return largest;
+    return largestOfAll(*simulation.ranks, largest);
 }
 
 /// Cell width (m) with which neighboring cells contain all particles that may block an emission and, where the energy
@@ -60,13 +60,26 @@ bool findRoom(const Simulation& simulation, const LinkedCells& cells, Emission e
         const auto fits = [&](const NewParticle& particle) {
             return hasRoom(simulation.particles, cells, particle, emitter.clearance);
         };
-        if (std::all_of(particles.begin(), particles.end(), fits)) return true;
+        const bool areFitting = std::all_of(particles.begin(), particles.end(), fits);
+        if (emitter.clearance == 0.0 || holdsOnAll(*simulation.ranks, areFitting)) return true;
     }
     return false;
 }
 
-/// Emits the particles that the emitter of this index has due, where there is room, and adds them to the cells.
-void emitFrom(std::size_t index, Simulation& simulation, LinkedCells& cells) {
+/// Gives a new particle the next id, and adds it to the particles of its owner and to the cells there.
+void add(const NewParticle& particle, Simulation& simulation, LinkedCells& cells) {
+    const Ranks& ranks = *simulation.ranks;
+    if (ranks.ownerOf(particle.position) != ranks.own()) {
+        ++simulation.particles.nextId;
+        return;
+    }
+    append(simulation.particles, particle);
+    cells.add(particle.position);
+}
+
+/// Emits the particles that the emitter of this index has due, where there is room.
+/// @param emitted  receives the new particles of all ranks
+void emitFrom(std::size_t index, Simulation& simulation, LinkedCells& cells, Particles& emitted) {
     const Emitter& emitter = simulation.setup.emitters[index];
     EmitterState& state = simulation.emitters[index];
     std::vector<NewParticle> particles;
@@ -81,8 +94,8 @@ void emitFrom(std::size_t index, Simulation& simulation, LinkedCells& cells) {
                 continue;
             }
             for (const NewParticle& particle : particles) {
-                append(simulation.particles, particle);
-                cells.add(particle.position);
+                add(particle, simulation, cells);
+                append(emitted, particle);
             }
             // A delay shifts the whole schedule; otherwise the delayed particles would come in a burst.
             ++schedule.births;
@@ -106,15 +119,16 @@ double nextEmission(const Simulation& simulation) {
 
 void emitDue(Simulation& simulation) {
     if (nextEmission(simulation) > simulation.time + kSameMoment) return;
-    const std::size_t first = simulation.particles.count();
+    Particles emitted;
+    emitted.nextId = simulation.particles.nextId;
     const double width = cellWidthFor(simulation);
     LinkedCells cells;
     if (width > 0.0) cells = LinkedCells(width, simulation.particles.position);
-    for (std::size_t e = 0; e < simulation.setup.emitters.size(); ++e) emitFrom(e, simulation, cells);
-    if (simulation.particles.count() == first) return;
+    for (std::size_t e = 0; e < simulation.setup.emitters.size(); ++e) emitFrom(e, simulation, cells, emitted);
+    if (emitted.count() == 0) return;
     requireValid(simulation, 0.0);  // an emitter may stand outside the world's limit
     simulation.cache->forcesCurrent = false;
-    addEnergyOfEmitted(simulation, first, cells);
+    addEnergyOfEmitted(simulation, emitted, cells);
 }
 
 void removeOutOfBounds(Simulation& simulation) {
@@ -122,11 +136,12 @@ void removeOutOfBounds(Simulation& simulation) {
     const BoundingBox& world = *simulation.setup.world;
     Particles& particles = simulation.particles;
     const auto stays = [&](std::size_t p) { return world.contains(particles.position[p]); };
-    if (largestOver(particles.count(), [&](std::size_t p) { return stays(p) ? 0.0 : 1.0; }) == 0.0) return;
-    const std::size_t countBefore = particles.count();
+    const bool doAllStay = largestOver(particles.count(), [&](std::size_t p) { return stays(p) ? 0.0 : 1.0; }) == 0.0;
+    if (holdsOnAll(*simulation.ranks, doAllStay)) return;
+    const std::uint64_t countBefore = countOfAll(simulation);
     keepWhere(particles, stays);
-    simulation.removedCount += countBefore - particles.count();
-    simulation.largestCountBeforeRemoval = std::max<std::uint64_t>(simulation.largestCountBeforeRemoval, countBefore);
+    simulation.removedCount += countBefore - countOfAll(simulation);
+    simulation.largestCountBeforeRemoval = std::max(simulation.largestCountBeforeRemoval, countBefore);
     simulation.cache->invalidate();
     renewGroups(simulation);
 }

@@ -28,51 +28,45 @@ double contactEnergyOf(const Simulation& simulation, std::size_t p) {
         .energy;
 }
 
-/// Energy of the pairs of a new particle with all particles of lower index, J.
-double energyWithEarlier(const Simulation& simulation, std::size_t p, const LinkedCells& cells) {
-    double energy = 0.0;
-    cells.forEachNear(simulation.particles.position[p], [&](std::size_t i) {
-        if (i < p) energy += pairEnergyReference(simulation.cache->evaluator.forceField(), simulation.particles, p, i);
-    });
-    return energy;
-}
-
 /// Whether a step may move every particle by more than its radius: only where there is a single particle that cannot
 /// have passed through an obstacle.
 bool mayGoFar(const Simulation& simulation) {
-    if (simulation.particles.count() > 1) return false;
-    return simulation.particles.count() == 0 || simulation.setup.obstacles.shapes.empty() ||
-           simulation.cache->swept[0] != 0 || isClearOfObstacles(simulation, 0);
+    if (countOfAll(simulation) > 1) return false;
+    return holdsOnAll(*simulation.ranks, simulation.particles.count() == 0 ||
+                                             simulation.setup.obstacles.shapes.empty() ||
+                                             simulation.cache->swept[0] != 0 || isClearOfObstacles(simulation, 0));
 }
 
-/// How far a particle has moved in a step.
-enum class Displacement : int {
-    near,       ///< by at most its radius
-    withGroup,  ///< further, but in free fall and by at most its radius relative to its group
-    tooFar
-};
-
-Displacement displacementOf(const Simulation& simulation, const SavedState& saved, std::size_t p) {
+/// Whether a particle has moved by more than its radius; a NaN counts.
+bool movedFar(const Simulation& simulation, const SavedState& saved, std::size_t p) {
     const Particles& particles = simulation.particles;
-    const double radiusSq = particles.radius[p] * particles.radius[p];
+    return !(squaredLength(particles.position[p] - saved.position[p]) <= particles.radius[p] * particles.radius[p]);
+}
+
+/// Whether a particle has moved by at most its radius relative to its group, in free fall.
+/// @param motions  of the groups, m
+bool movedWithGroup(const Simulation& simulation, const SavedState& saved, const std::vector<Vec3>& motions,
+                    std::size_t p) {
+    if (!hadFreePath(simulation, p, saved.position[p])) return false;
+    const Particles& particles = simulation.particles;
+    const Vec3 common = motions[simulation.cache->evaluator.groups().of(p)];
     const Vec3 moved = particles.position[p] - saved.position[p];
-    if (squaredLength(moved) <= radiusSq) return Displacement::near;
-    const FarGroups& groups = simulation.cache->evaluator.groups();
-    if (!groups.exist() || !hadFreePath(simulation, p, saved.position[p])) return Displacement::tooFar;
-    const std::size_t leader = groups.leaders[groups.of(p)];
-    const Vec3 common = particles.position[leader] - saved.position[leader];
-    // A NaN counts as too far.
-    return squaredLength(moved - common) <= radiusSq ? Displacement::withGroup : Displacement::tooFar;
+    return squaredLength(moved - common) <= particles.radius[p] * particles.radius[p];  // false for a NaN
 }
 
 bool movedTooFar(const Simulation& simulation, const SavedState& saved) {
     if (mayGoFar(simulation)) return false;
-    const double farthest = largestOver(simulation.particles.count(), [&](std::size_t p) {
-        return static_cast<double>(displacementOf(simulation, saved, p));
+    const auto holdsForAll = [&](const auto& holds) {
+        const auto fails = [&](std::size_t p) { return holds(p) ? 0.0 : 1.0; };
+        return holdsOnAll(*simulation.ranks, largestOver(simulation.particles.count(), fails) == 0.0);
+    };
+    if (holdsForAll([&](std::size_t p) { return !movedFar(simulation, saved, p); })) return false;
+    if (!simulation.cache->evaluator.groups().exist()) return true;
+    const std::vector<Vec3> motions = motionsOfGroups(simulation, saved.position);
+    const bool areWithGroups = holdsForAll([&](std::size_t p) {
+        return !movedFar(simulation, saved, p) || movedWithGroup(simulation, saved, motions, p);
     });
-    if (farthest != static_cast<double>(Displacement::withGroup))
-        return farthest > static_cast<double>(Displacement::withGroup);
-    return !haveStayedApart(simulation, saved.position);
+    return !areWithGroups || !haveStayedApart(simulation, saved.position);
 }
 
 /// Energy that the step from the saved state to the present one may have gained, J. The common motion of a group in
@@ -84,7 +78,7 @@ double allowanceFor(const Simulation& simulation, const SavedState& saved) {
     // Where groups have met, forces between them have changed their common motion.
     if (!groups.exist() || !haveStayedApart(simulation, saved.position)) return allowance;
     // Particles that were emitted since the groups were found act on group 0, but are not in its energy.
-    const bool hasEmitted = simulation.particles.count() > groups.groupOf.size();
+    const bool hasEmitted = !holdsOnAll(*simulation.ranks, simulation.particles.count() <= groups.groupOf.size());
     const std::vector<bool> areFree = groupsInFreeFall(simulation, saved.position);
     for (std::size_t group = hasEmitted ? 1 : 0; group < areFree.size(); ++group) {
         if (!areFree[group]) continue;
@@ -126,13 +120,24 @@ void markInvalid(Simulation& simulation) {
     simulation.cache->energy = std::numeric_limits<double>::quiet_NaN();
 }
 
-void addEnergyOfEmitted(Simulation& simulation, std::size_t first, const LinkedCells& cells) {
+void addEnergyOfEmitted(Simulation& simulation, const Particles& emitted, const LinkedCells& cells) {
     if (!simulation.cache->energy) return;
-    for (std::size_t p = first; p < simulation.particles.count(); ++p) {
+    const ForceField& field = simulation.cache->evaluator.forceField();
+    const Particles& particles = simulation.particles;
+    std::array<ExactSum, 3> sums;  // kinetic and other energy of the particles, energy of their pairs
+    for (std::size_t p = 0; p < particles.count(); ++p) {
+        if (particles.id[p] < emitted.id.front()) continue;
         const ParticleEnergy own = particleEnergy(simulation, p, contactEnergyOf(simulation, p));
-        simulation.cache->kinetic += own.kinetic;
-        *simulation.cache->energy += own.kinetic + own.potential + energyWithEarlier(simulation, p, cells);
+        sums[0].add(own.kinetic);
+        sums[1].add(own.potential);
     }
+    for (std::size_t e = 0; e < emitted.count(); ++e)
+        cells.forEachNear(emitted.position[e], [&](std::size_t p) {
+            if (particles.id[p] < emitted.id[e]) sums[2].add(pairEnergyReference(field, emitted, e, particles, p));
+        });
+    const auto [kinetic, potential, pairs] = roundedOverRanks(*simulation.ranks, sums);
+    simulation.cache->kinetic += kinetic;
+    *simulation.cache->energy += kinetic + potential + pairs;
 }
 
 void save(const Simulation& simulation, SavedState& saved) {
@@ -141,6 +146,7 @@ void save(const Simulation& simulation, SavedState& saved) {
     saved.emitters = simulation.emitters;
     copy(simulation.particles.position, saved.position);
     copy(simulation.particles.velocity, saved.velocity);
+    saved.nextId = simulation.particles.nextId;
     saved.forcesCurrent = cache.forcesCurrent;
     if (saved.forcesCurrent) copy(cache.forces, saved.forces);
     saved.energy = cache.energy;
@@ -157,6 +163,7 @@ void restore(Simulation& simulation, const SavedState& saved) {
     simulation.emitters = saved.emitters;
     particles.position = saved.position;
     particles.velocity = saved.velocity;
+    particles.nextId = saved.nextId;
     StepCache& cache = *simulation.cache;
     cache.clearance.clear();
     cache.cachedNeighbors.clear();  // cleared, because a resumed run has none either

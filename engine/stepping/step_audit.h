@@ -46,15 +46,17 @@ void recordEnergy(Simulation& simulation, double pairEnergy);
 /// computed.
 void markInvalid(Simulation& simulation);
 
-/// Adds the energy of newly emitted particles, those from index `first` on, to the recorded energy.
-/// @param cells  contain all particles; at least as wide as the cutoff of the pair forces
-void addEnergyOfEmitted(Simulation& simulation, std::size_t first, const LinkedCells& cells);
+/// Adds the energy of newly emitted particles to the recorded energy.
+/// @param emitted  the new particles of all ranks
+/// @param cells    contain all particles of this rank; at least as wide as the cutoff of the pair forces
+void addEnergyOfEmitted(Simulation& simulation, const Particles& emitted, const LinkedCells& cells);
 
 /// The state before a step, which can be restored, and the energies by which the step is judged.
 struct SavedState {
     double time = 0.0;  ///< s
     std::vector<Vec3> position;
     std::vector<Vec3> velocity;
+    std::uint32_t nextId = 0;
     std::vector<Vec3> forces;
     std::vector<EmitterState> emitters;
     bool forcesCurrent = false;

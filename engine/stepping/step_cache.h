@@ -45,8 +45,7 @@ struct StepCache {
     std::vector<std::uint8_t> held;   ///< how often each particle's center was held at a surface in this step
 
     Scratch<std::vector<Vec3>> startPositions;  ///< positions at the step's start, m
-    double startCutoff = 0.0;                   ///< cutoff of the pair forces at the step's start, m
-    bool startIsListed = false;                 ///< whether the neighbor list covers startPositions within startCutoff
+    bool startIsListed = false;                 ///< whether the neighbor list covers startPositions
     /// For each particle, another particle that was within the cutoff when this was last asked for, which is done near
     /// obstacles. The next search for such a particle begins with it.
     Scratch<std::vector<std::uint32_t>> cachedNeighbors;

@@ -65,7 +65,7 @@ bool symplecticEulerStep(Simulation& simulation, double h) {
                                             return kickAndDrift(step, begin, end, particles);
                                         });
     if (hasScaledWalls) recordHeld(simulation);
-    return areValid;
+    return holdsOnAll(*simulation.ranks, areValid);
 }
 
 void advanceInEqualSteps(Simulation& simulation, double time) {

@@ -52,7 +52,7 @@ void velocityVerletStep(Simulation& simulation, double h, double lambda) {
         predicted[p] = velocity + (2.0 * lambda - 1.0) * change;
     });
     recordHeld(simulation);
-    if (!isValid(particles)) return markInvalid(simulation);
+    if (!isValid(simulation)) return markInvalid(simulation);
     const double pairEnergy = evaluateForces(simulation, predicted, h);
     // Leapfrog predicts no part of the second half of the kick, of which gravity causes no error: a particle that falls
     // is without error if this is left out, and one that rests if it is not.

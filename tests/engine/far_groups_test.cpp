@@ -3,6 +3,7 @@
 #include "engine/neighbors/far_groups.h"
 
 #include <limits>
+#include <numeric>
 #include "tests/catch.h"
 
 #include "engine/neighbors/neighbor_list.h"
@@ -15,6 +16,12 @@ namespace {
 constexpr double kGap = 10.0;         // m
 constexpr double kGroupCutoff = 0.6;  // m
 constexpr double kGroupSkin = 0.06;   // m
+
+FarGroups groupsOf(const std::vector<Vec3>& positions) {
+    std::vector<std::uint32_t> ids(positions.size());
+    std::iota(ids.begin(), ids.end(), 0);
+    return findFarGroups(Ranks::alone(), positions, ids, kGap);
+}
 
 /// A cloud of particles about the origin, and clumps of three particles at the given places (m).
 std::vector<Vec3> cloudAndClumps(const std::vector<Vec3>& places) {
@@ -42,18 +49,18 @@ double leastDistance(const FarGroups& groups, const std::vector<Vec3>& positions
 }  // namespace
 
 TEST_CASE("Particles are one group unless a wide gap divides them", "[far-groups]") {
-    CHECK_FALSE(findFarGroups({}, kGap).exist());
-    CHECK_FALSE(findFarGroups({Vec3::Zero()}, kGap).exist());
-    CHECK_FALSE(findFarGroups(cloudAndClumps({}), kGap).exist());
-    CHECK_FALSE(findFarGroups(cloudAndClumps({Vec3(0, kGap - 2.0, 0), Vec3(0, -kGap + 2.0, 0)}), kGap).exist());
+    CHECK_FALSE(groupsOf({}).exist());
+    CHECK_FALSE(groupsOf({Vec3::Zero()}).exist());
+    CHECK_FALSE(groupsOf(cloudAndClumps({})).exist());
+    CHECK_FALSE(groupsOf(cloudAndClumps({Vec3(0, kGap - 2.0, 0), Vec3(0, -kGap + 2.0, 0)})).exist());
     std::vector<Vec3> stream;  // a long row without a wide gap
     for (int k = 0; k < 100; ++k) stream.emplace_back(0.9 * kGap * k, 0, 0);
-    CHECK_FALSE(findFarGroups(stream, kGap).exist());
+    CHECK_FALSE(groupsOf(stream).exist());
 }
 
 TEST_CASE("Every clump beyond a wide gap is a group, and the largest group comes first", "[far-groups]") {
     const auto positions = cloudAndClumps({Vec3(0, -30, 0), Vec3(1e6, 0, 0), Vec3(0, 0, 9e7)});
-    const FarGroups groups = findFarGroups(positions, kGap);
+    const FarGroups groups = groupsOf(positions);
     REQUIRE(groups.count() == 4);
     REQUIRE(groups.groupOf.size() == positions.size());
     for (std::size_t p = 9; p < positions.size(); ++p) CHECK(groups.of(p) == 0);
@@ -83,7 +90,7 @@ TEST_CASE("Groups that are said to stay apart do", "[far-groups]") {
                 groups.groupOf.push_back(group);
             }
         }
-        if (!stayApart(groups, positions, motions, 1.0)) continue;
+        if (!stayApart(Ranks::alone(), groups, positions, motions, 1.0)) continue;
         ++apart;
         INFO("trial " << trial);
         CHECK(leastDistance(groups, positions, motions, 20) > 1.0);
@@ -94,16 +101,16 @@ TEST_CASE("Groups that are said to stay apart do", "[far-groups]") {
 
 TEST_CASE("A motion that is NaN does not keep groups apart", "[far-groups]") {
     const auto positions = cloudAndClumps({Vec3(0, -300, 0)});
-    const FarGroups groups = findFarGroups(positions, kGap);
+    const FarGroups groups = groupsOf(positions);
     std::vector<Vec3> motions(groups.count(), Vec3::Zero());
-    CHECK(stayApart(groups, positions, motions, kGap));
+    CHECK(stayApart(Ranks::alone(), groups, positions, motions, kGap));
     motions[1].x() = std::numeric_limits<double>::quiet_NaN();
-    CHECK_FALSE(stayApart(groups, positions, motions, kGap));
+    CHECK_FALSE(stayApart(Ranks::alone(), groups, positions, motions, kGap));
 }
 
 TEST_CASE("Strays outdate a list only where they come near other particles or part", "[far-groups][neighbor-list]") {
     const auto positions = cloudAndClumps({Vec3(0, -30, 0), Vec3(0, -60, 0)});
-    const FarGroups groups = findFarGroups(positions, kGap);
+    const FarGroups groups = groupsOf(positions);
     NeighborList list;
     build(list, positions, {}, kGroupCutoff, kGroupSkin);
     const auto coversMoved = [&](const Vec3& first, const Vec3& second) {

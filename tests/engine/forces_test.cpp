@@ -259,7 +259,7 @@ TEST_CASE("Whether a particle has a neighbor depends on positions, not on the li
     particles.velocity[2] = Vec3(0, 2, 0);
     CHECK(termsFor(field, particles).cutoff == Approx(kCutoff));  // c_d = 2 times the rest length
     std::set<double> reaches;
-    for (const double step : {0.0, 1e-6, 0.01}) {
+    for (const double step : {0.0, 0.01}) {
         ForceEvaluator evaluator(field, ForceMethod::grid);
         std::vector<Vec3> forces;
         evaluator.evaluatePairs(particles, particles.velocity, forces);
@@ -268,27 +268,43 @@ TEST_CASE("Whether a particle has a neighbor depends on positions, not on the li
         reaches.insert(evaluator.list().reach());
         std::vector<Vec3> positions = particles.position;
         // The answer does not depend on the cached neighbor.
-        const auto hasNoNeighborWithin = [&](std::size_t p, std::uint32_t& cachedNeighbor) {
-            const bool isNow = evaluator.hasNoNeighborWithin(positions, kCutoff, p, cachedNeighbor);
-            CHECK(evaluator.hasNoNeighborWithin(positions, kCutoff, p, cachedNeighbor) == isNow);
+        const auto hasNoNeighbor = [&](std::size_t p, std::uint32_t& cachedNeighbor) {
+            const bool isNow = evaluator.hasNoNeighbor(positions, particles.radius, p, cachedNeighbor);
+            CHECK(evaluator.hasNoNeighbor(positions, particles.radius, p, cachedNeighbor) == isNow);
             return isNow;
         };
         for (const std::uint32_t first : {0U, 1U, 2U, 3U, 0xffffffffU}) {
             INFO("cachedNeighbor " << first);
             std::uint32_t cachedNeighbor = first;
             positions[1].x() = particles.position[1].x();
-            for (std::size_t p = 0; p < 3; ++p) CHECK(hasNoNeighborWithin(p, cachedNeighbor = first));
+            for (std::size_t p = 0; p < 3; ++p) CHECK(hasNoNeighbor(p, cachedNeighbor = first));
             positions[1].x() = 0.599;
-            CHECK_FALSE(hasNoNeighborWithin(0, cachedNeighbor = first));
+            CHECK_FALSE(hasNoNeighbor(0, cachedNeighbor = first));
             CHECK(cachedNeighbor == 1);
-            CHECK_FALSE(hasNoNeighborWithin(1, cachedNeighbor = first));
+            CHECK_FALSE(hasNoNeighbor(1, cachedNeighbor = first));
             CHECK(cachedNeighbor == 0);
-            CHECK(hasNoNeighborWithin(2, cachedNeighbor = first));
-            CHECK_FALSE(hasNoNeighborWithin(3, cachedNeighbor = first));  // emitted since, without a row
+            CHECK(hasNoNeighbor(2, cachedNeighbor = first));
+            CHECK_FALSE(hasNoNeighbor(3, cachedNeighbor = first));  // emitted since, without a row
         }
         positions.push_back(positions[2]);  // emitted right beside it, in no row yet
         std::uint32_t cachedNeighbor = 3;
-        CHECK(hasNoNeighborWithin(2, cachedNeighbor));
+        CHECK(hasNoNeighbor(2, cachedNeighbor));
     }
-    CHECK(reaches.size() == 3);
+    CHECK(reaches.size() == 2);  // without neighbors, the widest skin for any known step
+}
+
+TEST_CASE("A particle's neighbors are those that act on it, whatever acts on larger particles", "[forces]") {
+    const ForceField field = clouds::forceFieldOf("liquid");  // pairs act up to twice the sum of their radii
+    Particles particles;
+    for (const double x : {0.0, 0.5, 0.9}) append(particles, {.position = Vec3(x, 0, 0)});
+    particles.radius = {0.05, 0.1, 0.15};
+    ForceEvaluator evaluator(field, ForceMethod::grid);
+    std::vector<Vec3> forces;
+    evaluator.evaluatePairs(particles, particles.velocity, forces);
+    for (const std::uint32_t first : {0U, 1U, 2U}) {
+        std::uint32_t cachedNeighbor = first;
+        CHECK(evaluator.hasNoNeighbor(particles.position, particles.radius, 0, cachedNeighbor));
+        CHECK_FALSE(evaluator.hasNoNeighbor(particles.position, particles.radius, 1, cachedNeighbor = first));
+        CHECK_FALSE(evaluator.hasNoNeighbor(particles.position, particles.radius, 2, cachedNeighbor = first));
+    }
 }

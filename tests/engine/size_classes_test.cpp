@@ -74,7 +74,7 @@ void checkRows(const Particles& particles) {
 
 std::size_t classCount(const std::vector<double>& radii) {
     std::vector<SizeClass> classes;
-    divideBySize(radii, radii.size(), classes);
+    divideBySize(sizesOf(Ranks::alone(), radii), radii, radii.size(), classes);
     std::size_t particles = 0;
     for (const SizeClass& sizeClass : classes) {
         CHECK(sizeClass.sorted.begin == particles);
@@ -93,8 +93,8 @@ TEST_CASE("particles whose radii differ by less than two are one class") {
     CHECK(classCount({0.1, 0.15, 0.2, 0.9, 25.0}) == 4);
     CHECK(classCount({}) == 1);
     CHECK(classCount({1e-9, 1e7}) == 2);
-    CHECK(typicalRelativeRadius(std::vector{0.1, 0.15}) == 1.0);
-    CHECK(typicalRelativeRadius(std::vector{0.1, 0.12, 1.0}) == 0.12);
+    CHECK(typicalRelativeRadius(sizesOf(Ranks::alone(), std::vector{0.1, 0.15})) == 1.0);
+    CHECK(typicalRelativeRadius(sizesOf(Ranks::alone(), std::vector{0.1, 0.12, 1.0})) == 0.12);
 }
 
 TEST_CASE("rows of particles of any sizes have every pair that acts, and few others") {

@@ -1,0 +1,186 @@
+// Runs that several ranks share: the same bits as in one process, for any stepper, number of ranks and division of the
+// particles, through emissions, removals, redistributions and checkpoints.
+#include "engine/ranks/ranks.h"
+
+#include "tests/catch.h"
+
+#include "engine/core/hash.h"
+#include "engine/run/advance.h"
+#include "engine/run/checkpoint.h"
+#include "engine/run/diagnostics.h"
+#include "engine/run/redistribution.h"
+#include "engine/state/bodies.h"
+#include "engine/state/emitter_sites.h"
+#include "engine/stepping/step_cache.h"
+#include "tests/engine/runs.h"
+#include "tests/engine/thread_ranks.h"
+
+using namespace engine;
+using thread_ranks::onRanks;
+using thread_ranks::Owner;
+
+namespace {
+
+/// A ball on a floor and a sphere, a nozzle with room to keep, a crumb far away that falls, and a world that it leaves.
+Setup busy(StepperKind stepper) {
+    Setup setup;
+    Material liquid = *materialPreset("liquid");
+    liquid.mass = 0.1;
+    setup.materials = {liquid};
+    setup.drag = 0.1;
+    setup.stepper = stepper;
+    setup.step = 0.002;
+    for (const Vec3& position : ballPositions(Vec3(0, 1.3, 0), 0.9, {.spacing = 0.3, .jitter = 0.05}))
+        append(setup.initial, {.position = position, .velocity = Vec3(0, -3, 0), .mass = liquid.mass});
+    for (int k = 0; k < 3; ++k)
+        append(setup.initial, {.position = Vec3(-40.5, 30.0 + 0.2 * k, 0.1 * k), .velocity = Vec3(-30, 0, 0)});
+    setup.obstacles.shapes = {Plane{}, Sphere{Vec3(0, 0.2, 0), 0.4, false}};
+    Emitter emitter;
+    emitter.sites = discSites(Vec3(2, 1, 0), Vec3(-3, 1, 0), 0.3, 0.3);
+    emitter.velocity = Vec3(-3, 1, 0);
+    emitter.interval = 0.05;
+    emitter.pick = Pick::random;
+    emitter.leastDelay = 0.01;
+    setup.emitters = {emitter};
+    setup.world = BoundingBox{Vec3(-41, -50, -50), Vec3(50, 50, 50)};
+    return setup;
+}
+
+/// Grains of three materials and very different sizes, with friction.
+Setup mixed(StepperKind stepper) {
+    Setup setup;
+    setup.materials.clear();
+    for (const char* const name : {"sand", "mud", "liquid"}) setup.materials.push_back(*materialPreset(name));
+    setup.materials[0].friction = 0.3;
+    setup.stepper = stepper;
+    setup.step = 0.001;
+    setup.initial = clouds::strewnUnequal(300, 1.0);
+    for (std::size_t p = 0; p < setup.initial.count(); ++p) {
+        setup.initial.material[p] = static_cast<std::uint32_t>(p % 3);
+        if (p % 7 == 0) setup.initial.radius[p] *= 0.2;
+        if (p % 150 == 0) setup.initial.radius[p] *= 4.0;
+    }
+    setup.obstacles.shapes = {Plane{Vec3(0, -1.5, 0), Vec3::UnitY()}};
+    return setup;
+}
+
+constexpr double kFrame = 0.03;  // s
+
+/// Enough for the automatic stepper to compare a run with twins, and few for the others.
+int frameCount(const Setup& setup) {
+    return setup.stepper == StepperKind::automatic && !setup.emitters.empty() ? 32 : 4;
+}
+
+std::string hashOf(const std::vector<std::uint8_t>& checkpoint) {
+    return hexadecimal(fnv1aOf(checkpoint));
+}
+
+/// The hash at the end of a run in one process.
+std::string endAlone(const Setup& setup) {
+    Simulation simulation = start(setup);
+    for (int frame = 1; frame <= frameCount(setup); ++frame) advance(simulation, frame * kFrame);
+    CHECK(simulation.particles.count() > 100);
+    if (!setup.emitters.empty()) {
+        CHECK(birthCount(simulation) > 1);
+        CHECK(simulation.removedCount == 3);
+        if (setup.stepper == StepperKind::automatic) CHECK(simulation.automatic.twinCount > 1);
+    }
+    return hashOf(encodeCheckpoint(simulation));
+}
+
+/// The hash at the end of the same run on some ranks, which exchange particles after every other frame.
+std::string endOnRanks(const Setup& setup, int count, const Owner& owner) {
+    std::string end;
+    std::string gathered;
+    std::string inCheckpoint;
+    onRanks(count, owner, [&](const Ranks& ranks) {
+        Simulation simulation = start(setup, ranks);
+        for (int frame = 1; frame <= frameCount(setup); ++frame) {
+            advance(simulation, frame * kFrame);
+            if (frame % 2 == 0) redistribute(simulation);
+        }
+        const auto checkpoint = gatherCheckpoint(simulation);
+        Simulation whole = start(setup);
+        gather(simulation, whole);
+        if (ranks.own() != 0) return;
+        end = hashOf(checkpoint);
+        gathered = stateHash(whole.particles);
+        inCheckpoint = stateHash(decodeCheckpoint(setup, checkpoint).particles);
+    });
+    CHECK(gathered == inCheckpoint);
+    return end;
+}
+
+void checkDivisions(const Setup& setup) {
+    const std::string expected = endAlone(setup);
+    for (const int count : {2, 3}) {
+        INFO(count << " ranks");
+        CHECK(endOnRanks(setup, count, thread_ranks::slabs(count, 0.37)) == expected);
+        CHECK(endOnRanks(setup, count, thread_ranks::scattered(count)) == expected);
+    }
+    CHECK(endOnRanks(setup, 4, [](const Vec3&) { return 2; }) == expected);  // all on one of them
+}
+
+}  // namespace
+
+TEST_CASE("A run on several ranks ends in the state of a run in one process", "[ranks]") {
+    for (const StepperKind stepper : kSteppers) {
+        INFO(nameOf(stepper));
+        checkDivisions(busy(stepper));
+    }
+}
+
+TEST_CASE("Mixtures of many sizes have the same bits on any ranks, in both precisions", "[ranks]") {
+    for (const StepperKind stepper : {StepperKind::symplecticEuler, StepperKind::automatic})
+        for (const Precision precision : {Precision::doubles, Precision::singles}) {
+            INFO(nameOf(stepper) << ", precision " << static_cast<int>(precision));
+            Setup setup = mixed(stepper);
+            setup.precision = precision;
+            checkDivisions(setup);
+        }
+}
+
+TEST_CASE("A run goes on from a checkpoint on any number of ranks", "[ranks]") {
+    for (const StepperKind stepper : {StepperKind::symplecticEuler, StepperKind::leapfrog, StepperKind::automatic}) {
+        INFO(nameOf(stepper));
+        const Setup setup = busy(stepper);
+        const std::string expected = endAlone(setup);
+        Simulation half = start(setup);
+        for (int frame = 1; frame <= frameCount(setup) / 2; ++frame) advance(half, frame * kFrame);
+        const std::vector<std::uint8_t> middle = encodeCheckpoint(half);
+        std::string end;
+        onRanks(3, thread_ranks::slabs(3, 0.21), [&](const Ranks& ranks) {
+            Simulation simulation = ranks.own() == 0 ? decodeCheckpoint(setup, middle) : start(setup, Ranks::alone());
+            divide(simulation, ranks);
+            for (int frame = frameCount(setup) / 2 + 1; frame <= frameCount(setup); ++frame)
+                advance(simulation, frame * kFrame);
+            const auto checkpoint = gatherCheckpoint(simulation);
+            if (ranks.own() == 0) end = hashOf(checkpoint);
+        });
+        CHECK(end == expected);
+    }
+}
+
+TEST_CASE("An unstable run ends on all ranks with the message of a run in one process", "[ranks]") {
+    Setup setup = busy(StepperKind::symplecticEuler);
+    setup.materials[0].damping = 1e9;
+    setup.initial.velocity[17] = Vec3(1e30, 0, 0);
+    std::string expected;
+    try {
+        Simulation simulation = start(setup);
+        advance(simulation, 1.0);
+    } catch (const InstabilityError& error) {
+        expected = error.what();
+    }
+    CHECK(expected.find("became unstable: particle") != std::string::npos);
+    std::vector<std::string> texts(3);
+    onRanks(3, thread_ranks::scattered(3), [&](const Ranks& ranks) {
+        try {
+            Simulation simulation = start(setup, ranks);
+            advance(simulation, 1.0);
+        } catch (const InstabilityError& error) {
+            texts[static_cast<std::size_t>(ranks.own())] = error.what();
+        }
+    });
+    for (const std::string& text : texts) CHECK(text == expected);
+}
