@@ -13,9 +13,9 @@
 #include "studies/bench/bench.h"
 #include "tools/commands/commands.h"
 #include "tools/run/open_renderer.h"
-#include "tools/run/threads.h"
 #include "tools/system/json.h"
 #include "tools/system/process.h"
+#include "tools/system/threads.h"
 
 namespace tools {
 namespace {

@@ -22,8 +22,8 @@
 #include "tools/run/forecast.h"
 #include "tools/run/run_report.h"
 #include "tools/run/run_warnings.h"
-#include "tools/run/threads.h"
 #include "tools/system/memory.h"
+#include "tools/system/threads.h"
 #include "tools/system/timed_child.h"
 
 namespace tools {

@@ -7,10 +7,10 @@
 
 #include "render/opengl/context/device.h"
 #include "tools/commands/commands.h"
-#include "tools/run/threads.h"
 #include "tools/system/json.h"
 #include "tools/system/process.h"
 #include "tools/system/processors.h"
+#include "tools/system/threads.h"
 
 namespace tools {
 namespace {

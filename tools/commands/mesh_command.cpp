@@ -12,9 +12,9 @@
 #include "tools/run/frame_sequence.h"
 #include "tools/run/run_warnings.h"
 #include "tools/run/state_sequence.h"
-#include "tools/run/threads.h"
 #include "tools/system/command_files.h"
 #include "tools/system/process.h"
+#include "tools/system/threads.h"
 
 namespace tools {
 namespace {

@@ -10,9 +10,9 @@
 #include "tools/commands/commands.h"
 #include "tools/run/frame_sequence.h"
 #include "tools/run/run_warnings.h"
-#include "tools/run/threads.h"
 #include "tools/system/command_files.h"
 #include "tools/system/memory.h"
+#include "tools/system/threads.h"
 
 namespace tools {
 namespace {

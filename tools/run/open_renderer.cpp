@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "render/picture/system_error.h"
-#include "tools/run/threads.h"
+#include "tools/system/threads.h"
 
 namespace tools {
 namespace {

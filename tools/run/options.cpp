@@ -17,11 +17,11 @@
 #include "scenes/text/input_error.h"
 #include "scenes/text/read_file.h"
 #include "scenes/text/value.h"
-#include "tools/run/threads.h"
 #include "tools/system/memory.h"
 #include "tools/system/process.h"
 #include "tools/system/processors.h"
 #include "tools/system/text.h"
+#include "tools/system/threads.h"
 
 namespace tools {
 namespace {

@@ -22,11 +22,11 @@
 #include "tools/run/frame_sequence.h"
 #include "tools/run/open_renderer.h"
 #include "tools/run/state_sequence.h"
-#include "tools/run/threads.h"
 #include "tools/system/json.h"
 #include "tools/system/memory.h"
 #include "tools/system/output_file.h"
 #include "tools/system/process.h"
+#include "tools/system/threads.h"
 
 namespace tools {
 namespace {

@@ -12,8 +12,8 @@
 #include "scenes/text/input_error.h"
 #include "scenes/view/frame_view.h"
 #include "tools/run/open_renderer.h"
-#include "tools/run/threads.h"
 #include "tools/system/memory.h"
+#include "tools/system/threads.h"
 
 namespace tools {
 namespace {

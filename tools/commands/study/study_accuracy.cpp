@@ -16,9 +16,9 @@
 #include "studies/accuracy/accuracy.h"
 #include "tools/commands/study/study_accuracy.h"
 #include "tools/pages/study_pages.h"
-#include "tools/run/threads.h"
 #include "tools/system/output_file.h"
 #include "tools/system/text.h"
+#include "tools/system/threads.h"
 
 namespace tools {
 namespace {

@@ -11,9 +11,9 @@
 #include "studies/pictures/pictures.h"
 #include "tools/commands/study/study_command.h"
 #include "tools/pages/study_pages.h"
-#include "tools/run/threads.h"
 #include "tools/system/output_file.h"
 #include "tools/system/process.h"
+#include "tools/system/threads.h"
 
 namespace tools {
 namespace {

@@ -11,8 +11,8 @@
 #include "studies/accuracy/whole_scene.h"
 #include "tools/commands/study/study_accuracy.h"
 #include "tools/pages/study_pages.h"
-#include "tools/run/threads.h"
 #include "tools/system/output_file.h"
+#include "tools/system/threads.h"
 
 namespace tools {
 namespace {
