@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tools/run/options.h"
+#include "tools/run/simulation_host.h"
 
 namespace tools {
 
@@ -13,7 +14,8 @@ namespace tools {
 /// code come back to main() as exceptions.
 void addRenderCommand(CLI::App& program);
 void addStripCommand(CLI::App& program);
-void addSimulateCommand(CLI::App& program);
+/// @param host  computes the simulation; nullptr: this process
+void addSimulateCommand(CLI::App& program, SimulationHost* host = nullptr);
 void addMeshCommand(CLI::App& program);
 void addFiguresCommand(CLI::App& program);
 void addVideoCommand(CLI::App& program);
@@ -55,6 +57,12 @@ void addDeviceFlag(CLI::App& command, DrawOptions& options);
 CLI::Validator numberFrom(double least, double most);
 CLI::Validator numberAtLeastZero();
 CLI::Validator numberAboveZero();
+
+/// Prepares memory, standard streams and folders of the process; the first thing that a program does.
+void prepareProcess();
+
+/// Runs the command that was called; returns the exit code of the program, and has printed a line for each problem.
+int runProgram(CLI::App& program, int argc, char** argv);
 
 /// Runs the command that was called, or prints what --help or another flag of the program asks for.
 /// @throws ExitStatus with kInputErrorCode if there is no command or a flag is wrong, and whatever the command throws

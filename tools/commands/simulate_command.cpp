@@ -24,6 +24,7 @@ struct SimulateOptions {
     std::string frames;
     bool estimatesErrors = true;
     std::vector<std::string> formats = {"ply"};
+    SimulationHost* host = nullptr;
 };
 
 /// The formats that are asked for, each once.
@@ -93,7 +94,7 @@ FinishedRun simulateFrames(const scenes::Scene& scene, const FrameList& frames, 
                            const std::string& title) {
     Progress progress(title, frames.count(), options.run.verbosity());
     StateWriter states(scene, frames, options);
-    FrameSequence sequence(scene, frames, {&states.folder(), options.estimatesErrors}, progress);
+    FrameSequence sequence(scene, frames, {&states.folder(), options.estimatesErrors, options.host}, progress);
     RunReport& report = sequence.report();
     report.threads = threadCount(options.run);
     {
@@ -135,6 +136,7 @@ void simulate(SimulateOptions options) {
 
     requireSeparate({scene.files, {}, {{"-o", folder, isRunFile}}});
     warnOfStart(options.scene, scene, threadCount(options.run));
+    if (options.host != nullptr) options.host->load(options.scene);
     FinishedRun run;
     onThreads(threadCount(options.run), [&] { run = simulateFrames(scene, frames, options, name); });
     const RunReport& report = run.report;
@@ -147,10 +149,12 @@ void simulate(SimulateOptions options) {
 
 }  // namespace
 
-void addSimulateCommand(CLI::App& program) {
+void addSimulateCommand(CLI::App& program, SimulationHost* host) {
     CLI::App& command = *program.add_subcommand(
         "simulate", "particle states only: a file a frame, for other programs and scenes, and run.json");
     const auto options = std::make_shared<SimulateOptions>();
+    options->host = host;
+    if (host != nullptr) options->run.threads = 1;  // a host has several processes, often one for each processor
     addTo(command, options->scene);
     addStrictFlag(command, options->scene);
     addTo(command, options->folder, "folder for frames and run.json (default: out/NAME-states)");

@@ -9,9 +9,7 @@
 
 #include "engine/core/hash.h"
 #include "engine/error_control/step_cost.h"
-#include "engine/run/checkpoint.h"
 #include "engine/run/diagnostics.h"
-#include "scenes/view/frame_view.h"
 #include "tools/run/run_warnings.h"
 #include "tools/system/json.h"
 #include "tools/system/memory.h"
@@ -37,10 +35,6 @@ std::string hashOf(const FrameList& frames) {
     return engine::hexadecimal(hash);
 }
 
-std::vector<std::uint8_t> checkpointOf(const engine::Simulation& simulation) {
-    return withMemoryForParticles(simulation.particles.count(), [&] { return engine::encodeCheckpoint(simulation); });
-}
-
 }  // namespace
 
 FrameSequence::FrameSequence(const scenes::Scene& scene, FrameList frames, const SequenceOptions& options,
@@ -49,9 +43,10 @@ FrameSequence::FrameSequence(const scenes::Scene& scene, FrameList frames, const
       scene_(scene),
       frames_(std::move(frames)),
       estimatesErrors_(options.estimatesErrors),
+      host_(options.host == nullptr ? own_ : *options.host),
       lastCheckpoint_(std::chrono::steady_clock::now()) {
     withMemoryForParticles(scene_.setup.initial.count(), [this] {
-        if (folder_ == nullptr || !resume()) run_.simulation = engine::start(scene_.setup);
+        if (folder_ == nullptr || !resume()) run_.simulation = host_.start(scene_);
     });
     run_.simulation.beforeStep = [this](const engine::Simulation& simulation) {
         progress_.stepBegins(simulation.time);
@@ -69,11 +64,16 @@ bool FrameSequence::resume() {
     if (!restart) return false;
     position_ = restart->frame;
     run_.simulation = std::move(restart->simulation);
+    host_.resume(scene_, run_.simulation);
     if (estimatesErrors_ && restart->report.value("frames", Json()) == hashOf(frames_))
         run_.report.errors = decodeErrors(restart->report);
     run_.report.resumedFrom = restart->frame;
     next_ = std::min(frames_.first(), position_ + 1);
     return true;
+}
+
+std::vector<std::uint8_t> FrameSequence::checkpoint() {
+    return withMemoryForParticles(run_.simulation.particles.count(), [&] { return host_.checkpoint(run_.simulation); });
 }
 
 std::optional<SequencedFrame> FrameSequence::next() {
@@ -99,7 +99,7 @@ std::optional<SequencedFrame> FrameSequence::next() {
     if (frame.isWanted && !frame.isKept) frame.stateHash = run_.report.stateHash;
     const std::chrono::duration<double> sinceCheckpoint = std::chrono::steady_clock::now() - lastCheckpoint_;
     if (isNew && sinceCheckpoint.count() >= folder_->checkpointSeconds()) {
-        frame.checkpoint = checkpointOf(run_.simulation);
+        frame.checkpoint = checkpoint();
         frame.report = checkpointReport();
         lastCheckpoint_ = std::chrono::steady_clock::now();
     }
@@ -116,14 +116,14 @@ bool FrameSequence::advanceTo(int frame) {
         {
             const Progress::Work work(progress_, fmt::format("frame {}", frame), run_.simulation.time,
                                       frameTime(frame));
-            scenes::advanceToFrame(scene_, run_.simulation, frame);
+            host_.advanceToFrame(scene_, run_.simulation, frame);
         }
         position_ = frame;
         if (!estimatesErrors_ || !isSampled(frames_, frame)) return true;
         const Progress::Work work(progress_, fmt::format("error of frame {}", frame), frameTime(frame),
                                   frameTime(frame + 1));
-        engine::addSample(run_.report.errors, run_.simulation, scene_.fps.timeOf(1),
-                          engine::forceEvaluationsOf(run_.simulation) - evaluationsBefore);
+        host_.addSample(run_.report.errors, run_.simulation, scene_.fps.timeOf(1),
+                        engine::forceEvaluationsOf(run_.simulation) - evaluationsBefore);
         return true;
     } catch (const engine::InstabilityError& error) {
         run_.report.unstable = error.what();
@@ -145,7 +145,7 @@ void FrameSequence::finish() {
     // before it to be written.
     if (recordStop() || !report.unstable.empty()) return;
     if (folder_ != nullptr && position_ >= 0)
-        folder_->writeCheckpoint(position_, checkpointOf(run_.simulation), checkpointReport());
+        folder_->writeCheckpoint(position_, checkpoint(), checkpointReport());
     report.stateHash = engine::stateHash(run_.simulation.particles);
 }
 

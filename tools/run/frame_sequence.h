@@ -8,6 +8,7 @@
 #include "scenes/model/scene.h"
 #include "tools/frames/frame_list.h"
 #include "tools/run/frame_source.h"
+#include "tools/run/simulation_host.h"
 
 namespace tools {
 
@@ -15,6 +16,7 @@ namespace tools {
 struct SequenceOptions {
     FrameFolder* folder = nullptr;  ///< writes the frames; nullptr if they are only passed on
     bool estimatesErrors = true;    ///< whether the error of a fixed step is estimated at some of the frames
+    SimulationHost* host = nullptr;  ///< computes the simulation; nullptr: this process
 };
 
 /// Simulates the frames of a run one after the other.
@@ -33,12 +35,15 @@ class FrameSequence : public FrameSource {
 
  private:
     bool resume();
+    std::vector<std::uint8_t> checkpoint();
     bool advanceTo(int frame);
     Json checkpointReport() const;
 
     const scenes::Scene& scene_;
     FrameList frames_;
     bool estimatesErrors_;
+    SimulationHost own_;
+    SimulationHost& host_;
     int position_ = -1;  ///< the frame that the simulation is at; -1 before the first
     int next_ = 0;
     std::chrono::steady_clock::time_point lastCheckpoint_;
