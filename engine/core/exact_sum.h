@@ -19,22 +19,22 @@ class ExactSum {
     static constexpr std::size_t kWords = 68;
 
     void add(double term) {
-        constexpr std::uint64_t kMantissa = (std::uint64_t{1} << 52) - 1;
+        constexpr std::uint64_t kImplicit = std::uint64_t{1} << 52;  // the leading bit, which is not stored
         const auto bits = std::bit_cast<std::uint64_t>(term);
-        const auto exponent = static_cast<std::uint32_t>(bits >> 52 & 0x7FF);
+        const std::uint64_t exponent = bits >> 52 & 0x7FF;
         if (exponent == 0x7FF) {
             ++words_.back();  // counts the terms that are not finite
             return;
         }
-        const std::uint32_t place = exponent == 0 ? 0 : exponent - 1;
-        const std::uint64_t mantissa = (bits & kMantissa) | (exponent == 0 ? 0 : kMantissa + 1);
-        const std::size_t word = place / 32;
-        const std::uint32_t shift = place % 32;
+        const std::uint64_t isNormal = exponent == 0 ? 0 : 1;
+        const std::uint64_t place = exponent - isNormal;
+        const std::uint64_t mantissa = (bits & (kImplicit - 1)) | isNormal * kImplicit;
+        const std::uint64_t shift = place % 32;
         const auto low = static_cast<std::int64_t>(mantissa << shift & 0xFFFFFFFF);
         const auto high = static_cast<std::int64_t>(mantissa >> (32 - shift));
-        const std::int64_t sign = term < 0.0 ? -1 : 1;
-        words_[word] += sign * low;
-        words_[word + 1] += sign * high;
+        const std::int64_t sign = static_cast<std::int64_t>(bits) >> 63;  // 0, or -1 for a negative term
+        words_[place / 32] += (low ^ sign) - sign;
+        words_[place / 32 + 1] += (high ^ sign) - sign;
         if (++waiting_ == kMostWaiting) carry();
     }
 
@@ -65,8 +65,8 @@ class ExactSum {
         waiting_ = 0;
     }
 
-    /// A term adds less than 2^53 to a word, and a carried word has less than 2^33.
-    static constexpr std::uint32_t kMostWaiting = 1000;
+    /// A term adds at most 2^52 + 2^32 to a word, and a carried word has less than 2^33.
+    static constexpr std::uint32_t kMostWaiting = 2000;
 
     std::array<std::int64_t, kWords> words_{};  ///< the last counts terms that are not finite
     std::uint32_t waiting_ = 0;                 ///< terms added since the last carry

@@ -120,19 +120,31 @@ double overClusters(const PairTraversal& pairs, bool hasEnergy, const SumCluster
     return hasEnergy ? exactSum(*pairs.ranks, count, [&](std::size_t laneSlot) { return energies[laneSlot]; }) : 0.0;
 }
 
-/// Stores the force (N) on the particle in a lane slot of the neighbor list, unless it is a ghost.
-void storeForce(const PairTraversal& pairs, std::size_t laneSlot, const Vec3& force, const PairSums& wanted) {
-    const std::uint32_t p = pairs.order()[pairs.sortedIndexAt(laneSlot)];
-    if (p != kGhost) wanted.forces[p] = force;
-}
+/// Stores the forces (N) on the particles in lane slots, but not on ghosts.
+class ForceStore {
+ public:
+    ForceStore(const PairTraversal& pairs, const PairSums& wanted)
+        : pairs_(pairs), order_(pairs.order()), forces_(wanted.forces) {}
+
+    void operator()(std::size_t laneSlot, const Vec3& force) const {
+        const std::uint32_t p = order_[pairs_.sortedIndexAt(laneSlot)];
+        if (p != kGhost) forces_[p] = force;
+    }
+
+ private:
+    const PairTraversal& pairs_;
+    const std::vector<std::uint32_t>& order_;
+    std::vector<Vec3>& forces_;
+};
 
 /// Sums over all pairs with the scalar kernel; returns the pair energy, in joules.
 template <Variant variant>
 double sumOneByOne(const PairTraversal& pairs, const PairSums& wanted) {
+    const ForceStore storeForce(pairs, wanted);
     return overClusters(pairs, variant.hasEnergy, [&](std::size_t first, std::size_t end, double* energies) {
         for (std::size_t laneSlot = first; laneSlot < end; ++laneSlot) {
             const ParticleSums sums = sumParticle<variant>(pairs, wanted, laneSlot);
-            storeForce(pairs, laneSlot, sums.force, wanted);
+            storeForce(laneSlot, sums.force);
             if constexpr (variant.hasEnergy) energies[laneSlot - first] = sums.energy;
         }
     });
@@ -205,6 +217,7 @@ void correctCoincident(const PairTraversal& pairs, const PairSums& wanted, std::
 double sumInLanes(const PairTraversal& pairs, const PairSums& wanted) {
     const bool hasEnergy = wanted.energy != nullptr || wanted.matrix != nullptr;
     const ClusterKernel sumCluster = clusterKernel(pairs, wanted);
+    const ForceStore storeForce(pairs, wanted);
     return overClusters(pairs, hasEnergy, [&](std::size_t first, std::size_t end, double* energies) {
         ClusterSums sums;
         sumCluster(pairs, wanted, first / kClusterSize, sums);
@@ -212,7 +225,7 @@ double sumInLanes(const PairTraversal& pairs, const PairSums& wanted) {
             withTerms(pairs.terms.pair,
                       [&]<PairTerms terms>() { correctCoincident<terms>(pairs, wanted, first, sums); });
         for (std::size_t lane = 0; lane < end - first; ++lane)
-            storeForce(pairs, first + lane, Vec3(sums.x[lane], sums.y[lane], sums.z[lane]), wanted);
+            storeForce(first + lane, Vec3(sums.x[lane], sums.y[lane], sums.z[lane]));
         if (hasEnergy) std::copy_n(sums.energy.data(), end - first, energies);
     });
 }

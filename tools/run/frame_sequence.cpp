@@ -144,8 +144,7 @@ void FrameSequence::finish() {
     // A simulation that became unstable or was stopped has no state of a frame, and a checkpoint needs all frames
     // before it to be written.
     if (recordStop() || !report.unstable.empty()) return;
-    if (folder_ != nullptr && position_ >= 0)
-        folder_->writeCheckpoint(position_, checkpoint(), checkpointReport());
+    if (folder_ != nullptr && position_ >= 0) folder_->writeCheckpoint(position_, checkpoint(), checkpointReport());
     report.stateHash = engine::stateHash(run_.simulation.particles);
 }
 

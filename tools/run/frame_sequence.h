@@ -14,8 +14,8 @@ namespace tools {
 
 /// What a run over frames does besides simulating them.
 struct SequenceOptions {
-    FrameFolder* folder = nullptr;  ///< writes the frames; nullptr if they are only passed on
-    bool estimatesErrors = true;    ///< whether the error of a fixed step is estimated at some of the frames
+    FrameFolder* folder = nullptr;   ///< writes the frames; nullptr if they are only passed on
+    bool estimatesErrors = true;     ///< whether the error of a fixed step is estimated at some of the frames
     SimulationHost* host = nullptr;  ///< computes the simulation; nullptr: this process
 };
 
