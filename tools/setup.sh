@@ -17,10 +17,10 @@ packages=(
 if [ "${1:-}" = --tests ]; then
     shift
     # clang has the sanitizers and the fuzzer; llvm the symbolizer that puts names into their reports; chromium opens the
-    # report of `globular compare`; python3-jsonschema checks the scenes against `globular schema --json-schema`; meshio, VTK and
-    # LAMMPS read particle files and meshes back, and write some to be read; Slurm (with munge), GNU parallel and python3-yaml run
-    # the jobs of examples/.
-    packages+=(catch2 clang libclang-rt-dev llvm chromium python3-jsonschema python3-meshio python3-vtk9 lammps slurm-wlm munge
-        parallel python3-yaml)
+    # report of `globular compare`; python3-jsonschema checks the scenes against `globular schema --json-schema`; meshio, VTK,
+    # LAMMPS and python3-openvdb read particle files, fields and meshes back, and the first three write some to be read; Slurm (with
+    # munge), GNU parallel and python3-yaml run the jobs of examples/.
+    packages+=(catch2 clang libclang-rt-dev llvm chromium python3-jsonschema python3-meshio python3-vtk9 lammps
+        python3-openvdb slurm-wlm munge parallel python3-yaml)
 fi
 exec "$(dirname "$0")/install_packages.sh" "${packages[@]}" "$@"

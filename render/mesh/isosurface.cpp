@@ -21,12 +21,13 @@ LoadedModule load() {
 #ifdef RENDER_OPENVDB_MODULE
     void* const library = dlopen(RENDER_OPENVDB_MODULE, RTLD_NOW | RTLD_LOCAL);
     const void* const functions = library == nullptr ? nullptr : dlsym(library, "globularOpenVdb");
-    if (functions == nullptr) return {nullptr, fmt::format("cannot load OpenVDB, which meshes need: {}", dlerror())};
+    if (functions == nullptr)
+        return {nullptr, fmt::format("cannot load OpenVDB, which meshes and .vdb files need: {}", dlerror())};
     return {static_cast<const OpenVdbModule*>(functions), ""};
 #else
     return {nullptr,
-            "this build has no OpenVDB, which meshes need; install libopenvdb-dev and libboost-dev, then build "
-            "again"};
+            "this build has no OpenVDB, which meshes and .vdb files need; install libopenvdb-dev and libboost-dev, "
+            "then build again"};
 #endif
 }
 
@@ -50,9 +51,14 @@ QuadMesh isosurfaceOf(const SampledField& field) {
     return module().functions->isosurfaceOf(field);
 }
 
-std::string encodeLevelSet(const TriangleMesh& mesh, const LevelSetLabel& label) {
+std::string encodeLevelSet(const TriangleMesh& mesh, const GridLabel& label) {
     requireOpenVdb();
     return module().functions->encodeLevelSet(mesh, label);
+}
+
+std::string encodeField(const SampledField& field, float isoValue, const GridLabel& label) {
+    requireOpenVdb();
+    return module().functions->encodeField(field, isoValue, label);
 }
 
 }  // namespace render

@@ -32,10 +32,10 @@ struct QuadMesh {
 /// @throws SystemError if there is no OpenVDB
 QuadMesh isosurfaceOf(const SampledField& field);
 
-/// What a .vdb file says beside the distances.
-struct LevelSetLabel {
+/// What a .vdb file says beside the values of its grid.
+struct GridLabel {
     double cell = 1.0;       ///< distance of neighboring voxels, m
-    glm::dvec3 origin{0.0};  ///< what the positions of the mesh are relative to, m
+    glm::dvec3 origin{0.0};  ///< what the positions of the mesh or of the field's lattice are relative to, m
     double time = 0.0;       ///< of the frame, s
     int frame = 0;
     std::string sceneHash;
@@ -45,6 +45,13 @@ struct LevelSetLabel {
 /// negative inside, within three voxels of the surface, with a transform in meters and the metadata "time" (double, s),
 /// "frame" (int32) and "scene_hash" (string). The same mesh gives the same bytes for any number of threads.
 /// @throws SystemError if there is no OpenVDB
-std::string encodeLevelSet(const TriangleMesh& mesh, const LevelSetLabel& label);
+std::string encodeLevelSet(const TriangleMesh& mesh, const GridLabel& label);
+
+/// The bytes of a .vdb file with a metaball field: a fog volume "density" with the values of the field, in which voxels
+/// are active where it is above 0. Transform and metadata are those of encodeLevelSet(), and besides them "iso_value"
+/// (float), the value of the field at the surface. The same field gives the same bytes for any number of threads.
+/// @param field  of sampleWhole(), on a lattice of label.cell
+/// @throws SystemError if there is no OpenVDB
+std::string encodeField(const SampledField& field, float isoValue, const GridLabel& label);
 
 }  // namespace render

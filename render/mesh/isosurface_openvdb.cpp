@@ -30,7 +30,6 @@ openvdb::Coord firstNode(const glm::ivec3& block) {
 
 openvdb::FloatGrid::Ptr gridOf(const SampledField& field) {
     auto grid = openvdb::FloatGrid::create(field.outside);
-    grid->setGridClass(openvdb::GRID_LEVEL_SET);  // values are negative inside
     for (std::size_t k = 0; k < field.blocks.size(); ++k) {
         auto* leaf = new Leaf(firstNode(field.blocks[k]), field.outside, true);
         std::copy(field.values[k]->begin(), field.values[k]->end(), leaf->buffer().data());
@@ -44,9 +43,9 @@ openvdb::FloatGrid::Ptr gridOf(const SampledField& field) {
 class MemoryFile : public openvdb::io::Archive {
  public:
     Ptr copy() const override { return Ptr(new MemoryFile(*this)); }
-    std::string bytesOf(const openvdb::GridCPtrVec& grids) const {
+    std::string bytesOf(const openvdb::GridBase::ConstPtr& grid) const {
         std::ostringstream stream;
-        write(stream, grids, true);
+        write(stream, openvdb::GridCPtrVec{grid}, true);
         return std::move(stream).str();
     }
 };
@@ -70,6 +69,7 @@ QuadMesh meshQuads(const SampledField& field) {
     QuadMesh mesh;
     if (field.blocks.empty()) return mesh;
     const openvdb::FloatGrid::Ptr grid = gridOf(field);
+    grid->setGridClass(openvdb::GRID_LEVEL_SET);  // values are negative inside
     std::vector<openvdb::Vec3s> points;
     std::vector<openvdb::Vec4I> quads;
     openvdb::tools::volumeToMesh(*grid, points, quads, 0.0);
@@ -81,10 +81,26 @@ QuadMesh meshQuads(const SampledField& field) {
     return mesh;
 }
 
-std::string encodeGrid(const TriangleMesh& mesh, const LevelSetLabel& label) {
-    openvdb::initialize();
-    const auto transform = openvdb::math::Transform::createLinearTransform(label.cell);
+/// From voxels to meters.
+openvdb::math::Transform::Ptr transformOf(const GridLabel& label) {
+    auto transform = openvdb::math::Transform::createLinearTransform(label.cell);
     transform->postTranslate({label.origin.x, label.origin.y, label.origin.z});
+    return transform;
+}
+
+/// The bytes of a file with one grid, which gets the name and what the label says.
+std::string fileOf(const openvdb::FloatGrid::Ptr& grid, const char* name, const GridLabel& label) {
+    grid->setName(name);
+    grid->insertMeta("time", openvdb::DoubleMetadata(label.time));
+    grid->insertMeta("frame", openvdb::Int32Metadata(label.frame));
+    grid->insertMeta("scene_hash", openvdb::StringMetadata(label.sceneHash));
+    std::string file = MemoryFile().bytesOf(grid);
+    makeRepeatable(file);
+    return file;
+}
+
+std::string encodeDistances(const TriangleMesh& mesh, const GridLabel& label) {
+    openvdb::initialize();
     std::vector<openvdb::Vec3s> points;  // in voxels
     std::vector<openvdb::Vec3I> triangles;
     points.reserve(mesh.positions.size());
@@ -95,17 +111,25 @@ std::string encodeGrid(const TriangleMesh& mesh, const LevelSetLabel& label) {
     }
     for (const Triangle& triangle : mesh.triangles) triangles.emplace_back(triangle[0], triangle[1], triangle[2]);
     const openvdb::tools::QuadAndTriangleDataAdapter<openvdb::Vec3s, openvdb::Vec3I> adapter(points, triangles);
-    const auto grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(adapter, *transform, kHalfWidth, kHalfWidth);
-    grid->setName("surface");
-    grid->insertMeta("time", openvdb::DoubleMetadata(label.time));
-    grid->insertMeta("frame", openvdb::Int32Metadata(label.frame));
-    grid->insertMeta("scene_hash", openvdb::StringMetadata(label.sceneHash));
-    std::string file = MemoryFile().bytesOf({grid});
-    makeRepeatable(file);
-    return file;
+    const auto grid =
+        openvdb::tools::meshToVolume<openvdb::FloatGrid>(adapter, *transformOf(label), kHalfWidth, kHalfWidth);
+    return fileOf(grid, "surface", label);
+}
+
+std::string encodeDensity(const SampledField& field, float isoValue, const GridLabel& label) {
+    openvdb::initialize();
+    const openvdb::FloatGrid::Ptr grid = gridOf(field);
+    for (auto leaf = grid->tree().beginLeaf(); leaf; ++leaf)
+        for (auto value = leaf->beginValueOn(); value; ++value)
+            if (*value == field.outside) value.setValueOff();
+    grid->setGridClass(openvdb::GRID_FOG_VOLUME);
+    grid->setTransform(transformOf(label));
+    grid->insertMeta("iso_value", openvdb::FloatMetadata(isoValue));
+    return fileOf(grid, "density", label);
 }
 
 }  // namespace
 }  // namespace render
 
-const render::OpenVdbModule globularOpenVdb = {OPENVDB_LIBRARY_VERSION_STRING, render::meshQuads, render::encodeGrid};
+const render::OpenVdbModule globularOpenVdb = {OPENVDB_LIBRARY_VERSION_STRING, render::meshQuads,
+                                               render::encodeDistances, render::encodeDensity};

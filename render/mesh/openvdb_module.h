@@ -1,4 +1,5 @@
-// What the module with OpenVDB gives to the program, which loads it when a mesh is made (isosurface.cpp).
+// What the module with OpenVDB gives to the program, which loads it when it makes meshes and .vdb files
+// (isosurface.cpp).
 #pragma once
 
 #include <string>
@@ -11,7 +12,8 @@ namespace render {
 struct OpenVdbModule {
     const char* version;
     QuadMesh (*isosurfaceOf)(const SampledField& field);
-    std::string (*encodeLevelSet)(const TriangleMesh& mesh, const LevelSetLabel& label);
+    std::string (*encodeLevelSet)(const TriangleMesh& mesh, const GridLabel& label);
+    std::string (*encodeField)(const SampledField& field, float isoValue, const GridLabel& label);
 };
 
 }  // namespace render

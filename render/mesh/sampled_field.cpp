@@ -1,5 +1,6 @@
-// Every block is sampled once to see on which side of the surface its nodes are, and the values of those with nodes on
-// both sides are kept. Blocks next to them are then sampled again, which costs less than keeping the values of all.
+// Near the surface, every block is sampled once to see on which side of the surface its nodes are, and the values of
+// those with nodes on both sides are kept. Blocks next to them are then sampled again, which costs less than keeping
+// the values of all.
 #include "render/mesh/sampled_field.h"
 
 #include <algorithm>
@@ -63,6 +64,25 @@ SampledField sampleNearSurface(const BallBlocks& balls, float threshold) {
         } else if (sides[block] == Side::inside) {
             field.inside.push_back(balls.blocks()[block]);
         }
+    }
+    return field;
+}
+
+SampledField sampleWhole(const BallBlocks& balls) {
+    const std::size_t count = balls.blocks().size();
+    std::vector<std::unique_ptr<BlockNodes>> values(count);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t block) {
+        auto sampled = std::make_unique<BlockNodes>();
+        balls.sample(block, *sampled);
+        // The corner of a ball's box may be out of the ball's reach.
+        if (std::ranges::any_of(*sampled, [](float value) { return value > 0.0F; })) values[block] = std::move(sampled);
+    });
+    SampledField field;
+    field.outside = 0.0F;
+    for (std::size_t block = 0; block < count; ++block) {
+        if (!values[block]) continue;
+        field.blocks.push_back(balls.blocks()[block]);
+        field.values.push_back(std::move(values[block]));
     }
     return field;
 }

@@ -1,4 +1,4 @@
-// The formats of particle files that `globular simulate --format` writes. A body with shape = "file" reads any of them
+// The formats of particle files that `globular simulate --format` writes, beside that of the metaballs' field. A body with shape = "file" reads any of them
 // (particle_file.h).
 #pragma once
 

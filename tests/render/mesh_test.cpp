@@ -132,7 +132,7 @@ std::string bytesOn(int threads, const render::View& view, double cell) {
     std::string bytes;
     arena.execute([&] {
         const TriangleMesh mesh = meshOf(view, cell);
-        render::LevelSetLabel label;
+        render::GridLabel label;
         label.cell = cell;
         bytes = render::encodePly(mesh, {}) + render::encodeObj(mesh, {}) + render::encodeLevelSet(mesh, label);
     });

@@ -3,6 +3,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "render/mesh/isosurface.h"
 #include "tests/catch.h"
 #include "tests/tools/early_ends.h"
 
@@ -14,7 +15,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kAll = "ply,ply-float,vtp,extxyz,lammps";
+bool hasOpenVdb() {
+    return !render::openVdbVersion().empty();
+}
+
+/// All formats that this build has.
+const std::string& all() {
+    static const std::string formats = std::string("ply,ply-float,vtp,extxyz,lammps") + (hasOpenVdb() ? ",vdb" : "");
+    return formats;
+}
 
 std::string states(const fs::path& folder, const std::string& more) {
     return "simulate powder --quiet --checkpoint 0 -o " + folder.string() + " " + more;
@@ -66,10 +75,10 @@ TEST_CASE("simulate writes the formats that are asked for and no others", "[stat
 
 TEST_CASE("A run in several formats is resumed to the same bytes", "[state-formats]") {
     const Folder folder;
-    const std::string flags = "--frames 2-30 --format " + kAll;
+    const std::string flags = "--frames 2-30 --format " + all();
     REQUIRE(run(states(folder / "whole", flags)).code == 0);
     const auto whole = particlesIn(folder / "whole");
-    REQUIRE(whole.size() == 5 * 29 + 1);
+    REQUIRE(whole.size() == (hasOpenVdb() ? 6 : 5) * 29 + 1);
     early_ends::interrupted(states(folder / "a", flags), "KILL", early_ends::after(100), folder / "log");
     // Each file that is there is whole, and so is the series, which names no file that is not there.
     for (const auto& [name, text] : particlesIn(folder / "a"))
@@ -84,7 +93,7 @@ TEST_CASE("A run in several formats is resumed to the same bytes", "[state-forma
 
 TEST_CASE("Exactly the missing and damaged files are made again", "[state-formats]") {
     const Folder folder;
-    const std::string flags = "--frames 0-5 --resume --format " + kAll;
+    const std::string flags = "--frames 0-5 --resume --format " + all();
     REQUIRE(run(states(folder / "a", flags)).code == 0);
     const auto whole = particlesIn(folder / "a");
     const auto before = timesIn(folder / "a");
@@ -101,6 +110,39 @@ TEST_CASE("Exactly the missing and damaged files are made again", "[state-format
         const bool isMade = name == "particles-00002.vtp" || name == "particles-00004.xyz";
         if (name != "particles.vtp.series") CHECK((time != before.at(name)) == isMade);
     }
+}
+
+TEST_CASE("The metaballs' field is written like particles, the same for any number of threads", "[state-formats]") {
+    const Folder folder;
+    const std::string flags = "--frames 0-3 --format vdb";
+    if (!hasOpenVdb()) {
+        const auto outcome = run(states(folder / "a", flags));
+        CHECK(outcome.code == 1);
+        CHECK(outcome.err.find("error: this build has no OpenVDB, which meshes and .vdb files need") == 0);
+        CHECK(program::lineCount(outcome.err) == 1);
+        CHECK_FALSE(fs::exists(folder / "a"));
+        return;
+    }
+    REQUIRE(run(states(folder / "a", flags + " --threads 1")).code == 0);
+    REQUIRE(run(states(folder / "b", flags + " --threads 2")).code == 0);
+    const auto fields = particlesIn(folder / "a");
+    REQUIRE(fields.size() == 4);
+    CHECK(fields.count("particles-00003.vdb") == 1);
+    CHECK(fields == particlesIn(folder / "b"));
+    fs::resize_file(folder / "a/particles-00001.vdb", 1000);
+    const auto outcome = run(states(folder / "a", flags + " --resume"));
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.find("particles-00001.vdb is damaged") != std::string::npos);
+    CHECK(particlesIn(folder / "a") == fields);
+    // The field is that of the scene's metaballs, of which there may be others for the same particles.
+    CHECK(run(states(folder / "a", flags + " --resume --set look.skin=smooth")).code == 1);
+    REQUIRE(run(states(folder / "a", flags + " --overwrite --set look.skin=smooth")).code == 0);
+    CHECK(particlesIn(folder / "a").at("particles-00003.vdb") != fields.at("particles-00003.vdb"));
+    // A folder of fields has no particles to draw.
+    const auto drawn = run("render powder --frames 1 -o " + (folder / "c").string() +
+                           " --set look.skin=smooth --states " + (folder / "a").string());
+    CHECK(drawn.code == 1);
+    CHECK(drawn.err.find("has no states of frames 1") != std::string::npos);
 }
 
 TEST_CASE("A run in other formats adds them to what is there", "[state-formats]") {
@@ -141,7 +183,7 @@ TEST_CASE("Files in a format that no run was asked for are another's", "[state-f
                              "particles-00009.lammpstrj", "particles.vtp.series"}) {
         program::writeText(folder / "a" / name, "mine");
         for (const char* more : {" --overwrite", "", " --resume"}) {
-            const auto outcome = run(states(folder / "a", "--frames 0-3 --format " + kAll + more));
+            const auto outcome = run(states(folder / "a", "--frames 0-3 --format " + all() + more));
             INFO(name << more << ": " << outcome.err);
             CHECK(outcome.code == 2);
             CHECK(outcome.err.find(std::string(name) + ": this file was not written by a run") != std::string::npos);
@@ -149,7 +191,7 @@ TEST_CASE("Files in a format that no run was asked for are another's", "[state-f
         }
         fs::remove(folder / "a" / name);
     }
-    CHECK(run(states(folder / "a", "--frames 0-3 --resume --format " + kAll)).code == 0);
+    CHECK(run(states(folder / "a", "--frames 0-3 --resume --format " + all())).code == 0);
     // A scene that reads one of the files must not be simulated into the folder.
     program::writeText(folder / "b.toml",
                        "title = \"b\"\nduration = 1\n[[material]]\npreset = \"powder\"\n[[material]]\nname = \"b\"\n"

@@ -1,13 +1,16 @@
-// globular simulate: simulates a scene without drawing it, and writes the particles of each frame to a file for each
-// format that is asked for.
+// globular simulate: simulates a scene without drawing it, and writes the particles of each frame, or their metaballs'
+// field, to a file for each format that is asked for.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 
+#include "render/mesh/isosurface.h"
 #include "scenes/particles/formats.h"
 #include "scenes/particles/vtp.h"
 #include "tools/commands/commands.h"
+#include "tools/mesh/frame_field.h"
 #include "tools/run/frame_sequence.h"
 #include "tools/run/run_warnings.h"
 #include "tools/system/command_files.h"
@@ -27,20 +30,40 @@ struct SimulateOptions {
     SimulationHost* host = nullptr;
 };
 
-/// The formats that are asked for, each once.
-std::vector<const scenes::ParticleFormat*> formatsOf(const SimulateOptions& options) {
-    std::vector<const scenes::ParticleFormat*> formats;
-    for (const scenes::ParticleFormat& format : scenes::particleFormats())
-        if (std::ranges::find(options.formats, format.name) != options.formats.end()) formats.push_back(&format);
-    return formats;
-}
-
 scenes::ParticleFrame particleFrame(const scenes::Scene& scene, const engine::Simulation& simulation,
                                     const SequencedFrame& frame) {
     scenes::ParticleFrame result{
         simulation.particles, {frame.number, frame.time, scene.simulationHash}, {}, scene.materialColors};
     for (const engine::Material& material : scene.setup.materials) result.materialNames.push_back(material.name);
     return result;
+}
+
+/// Files in one format, one a frame.
+struct StateFiles {
+    FrameNames names;
+    std::function<std::string(const engine::Simulation&, const SequencedFrame&)> encode;
+};
+
+bool isWanted(const SimulateOptions& options, std::string_view format) {
+    return std::ranges::find(options.formats, format) != options.formats.end();
+}
+
+/// The files that are asked for, each once. @param scene  must outlive what is returned
+std::vector<StateFiles> filesOf(const scenes::Scene& scene, const SimulateOptions& options) {
+    std::vector<StateFiles> files;
+    for (const scenes::ParticleFormat& format : scenes::particleFormats()) {
+        if (!isWanted(options, format.name)) continue;
+        const auto encode = [&scene, write = format.encode](const auto& simulation, const auto& frame) {
+            return withMemoryForParticles(simulation.particles.count(),
+                                          [&] { return write(particleFrame(scene, simulation, frame)); });
+        };
+        files.push_back({stateNames(format), encode});
+    }
+    if (isWanted(options, kFieldNames.format))
+        files.push_back({kFieldNames, [&scene](const auto& simulation, const auto& frame) {
+                             return encodeFrameField(scene, simulation, frame.number);
+                         }});
+    return files;
 }
 
 /// The index of the frames in VTK's format, with their times.
@@ -53,13 +76,13 @@ FrameIndex vtpSeries(const scenes::Scene& scene, const FrameNames& names) {
             }};
 }
 
-/// Writes the frames of a scene into a folder, in some formats.
+/// Writes the frames of a scene, which must outlive the writer, into a folder, in some formats.
 class StateWriter {
  public:
     StateWriter(const scenes::Scene& scene, const FrameList& frames, const SimulateOptions& options)
-        : scene_(scene), formats_(formatsOf(options)), folder_(options.folder, names(), frames, sceneIdentity(scene)) {
-        for (const scenes::ParticleFormat* format : formats_)
-            if (format->name == "vtp") folder_.keepIndex(vtpSeries(scene, stateNames(*format)));
+        : files_(filesOf(scene, options)), folder_(options.folder, names(), frames, sceneIdentity(scene)) {
+        for (const StateFiles& files : files_)
+            if (files.names.format == "vtp") folder_.keepIndex(vtpSeries(scene, files.names));
     }
 
     FrameFolder& folder() { return folder_; }
@@ -67,26 +90,22 @@ class StateWriter {
     /// Writes those files of a frame that are not kept.
     void write(const SequencedFrame& frame, const engine::Simulation& simulation) {
         if (!frame.isWanted || frame.isKept) return;
-        const scenes::ParticleFrame particles = particleFrame(scene_, simulation, frame);
-        for (const scenes::ParticleFormat* format : formats_) {
-            const FrameNames names = stateNames(*format);
-            if (folder_.isKept(frame.number, names)) continue;
-            const std::string bytes =
-                withMemoryForParticles(simulation.particles.count(), [&] { return format->encode(particles); });
-            folder_.write(frame.number, names, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()},
-                          frame.stateHash);
+        for (const StateFiles& files : files_) {
+            if (folder_.isKept(frame.number, files.names)) continue;
+            const std::string bytes = files.encode(simulation, frame);
+            folder_.write(frame.number, files.names,
+                          {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, frame.stateHash);
         }
     }
 
  private:
     std::vector<FrameNames> names() const {
         std::vector<FrameNames> all;
-        for (const scenes::ParticleFormat* format : formats_) all.push_back(stateNames(*format));
+        for (const StateFiles& files : files_) all.push_back(files.names);
         return all;
     }
 
-    const scenes::Scene& scene_;
-    std::vector<const scenes::ParticleFormat*> formats_;
+    std::vector<StateFiles> files_;
     FrameFolder folder_;
 };
 
@@ -120,6 +139,8 @@ void addFormats(CLI::App& command, std::vector<std::string>& formats) {
         names.emplace_back(format.name);
         help += fmt::format("; {}: {}", format.name, format.help);
     }
+    names.emplace_back(kFieldNames.format);
+    help += fmt::format("; {}: the metaballs' field as an OpenVDB fog volume (Blender, Houdini)", kFieldNames.format);
     command.add_option("--format", formats, help)
         ->type_name("FORMATS")
         ->delimiter(',')
@@ -134,6 +155,7 @@ void simulate(SimulateOptions options) {
     std::string& folder = options.folder.path;
     if (folder.empty()) folder = defaultOutput(name, "-states");
 
+    if (isWanted(options, kFieldNames.format)) render::requireOpenVdb();
     requireSeparate({scene.files, {}, {{"-o", folder, isRunFile}}});
     warnOfStart(options.scene, scene, threadCount(options.run));
     if (options.host != nullptr) options.host->load(options.scene);

@@ -72,7 +72,7 @@ FrameNames meshNames(std::string_view format) {
 }
 
 std::vector<FrameNames> allFrameNames() {
-    std::vector<FrameNames> all = {kPictureNames};
+    std::vector<FrameNames> all = {kPictureNames, kFieldNames};
     all.insert(all.end(), kMeshNames.begin(), kMeshNames.end());
     for (const scenes::ParticleFormat& format : scenes::particleFormats()) all.push_back(stateNames(format));
     return all;

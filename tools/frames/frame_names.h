@@ -30,11 +30,14 @@ inline constexpr FrameNames kStateNames = {"particles-", ".ply"};
 /// How particle states in a format are named.
 FrameNames stateNames(const scenes::ParticleFormat& format);
 
+/// How files with the metaballs' field are named, which `globular simulate --format vdb` writes.
+inline constexpr FrameNames kFieldNames = {"particles-", ".vdb", "vdb"};
+
 /// How meshes are named.
 /// @param format  "ply", "obj" or "vdb"; "ply" is taken for any other text
 FrameNames meshNames(std::string_view format);
 
-/// How all files are named that show a frame: pictures, states and meshes in every format.
+/// How all files are named that show a frame: pictures, states, fields and meshes in every format.
 std::vector<FrameNames> allFrameNames();
 
 /// The file that lists the .vtp files of a folder, for ParaView.

@@ -10,6 +10,7 @@
 #include "render/mesh/triangle_mesh.h"
 #include "scenes/model/scene.h"
 #include "tools/frames/frame_names.h"
+#include "tools/mesh/scene_metaballs.h"
 #include "tools/system/json.h"
 
 namespace tools {
@@ -18,7 +19,7 @@ namespace tools {
 inline constexpr std::array kMeshFormats = {"ply", "obj", "vdb"};
 
 struct MeshSettings {
-    double cell = 0.5;           ///< distance of neighboring nodes of the lattice, in radii of the smallest particles
+    double cell = kDefaultCell;  ///< distance of neighboring nodes of the lattice, in radii of the smallest particles
     std::string format = "ply";  ///< one of kMeshFormats
 };
 
@@ -54,8 +55,7 @@ class FrameMesher {
 
     const scenes::Scene& scene_;
     MeshSettings settings_;
-    double cell_;        ///< m
-    glm::dvec3 origin_;  ///< what the positions of meshes are relative to, m
+    Lattice lattice_;
 };
 
 }  // namespace tools
