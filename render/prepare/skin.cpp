@@ -3,6 +3,8 @@
 // the longest distance at which two particles influence each other. All that may be in reach of one cell's particles is
 // gathered once into blocks of 16, and each particle's sums run over these blocks with 16 accumulators, however wide
 // the vectors are. The accumulators are added up in a fixed order, so that every instruction set gives the same bits.
+// Groups of particles that are far apart have grids of their own: particles that have left a scene cost no time, and
+// change no bit of the others' balls where they are too far away for one grid.
 // This file is compiled once per instruction set.
 #include "render/prepare/skin.h"
 
@@ -22,6 +24,7 @@
 #include <hwy/highway.h>
 
 #include "render/prepare/simd_rays-inl.h"
+#include "render/prepare/strays.h"
 
 #ifndef RENDER_SKIN_CELLS
 #define RENDER_SKIN_CELLS
@@ -193,22 +196,27 @@ HWY_EXPORT(neighborInfluences);
 
 namespace {
 
-/// Makes cells as wide as particles influence each other, or wider if there were too many.
-void fitToParticles(std::span<const Sphere> particles, float reach, ParticleCells& cells) {
-    constexpr double kMostCells = 4e6;  // largest number of cells; chosen: they take 16 MB
-    Bounds<glm::vec3> bounds;
+constexpr double kMostCells = 4e6;  // largest number of cells; chosen: they take 16 MB
+
+/// Sets the radii, and makes cells as wide as particles influence each other.
+void fitToRadii(std::span<const Sphere> particles, float reach, ParticleCells& cells) {
     cells.smallestRadius = std::numeric_limits<float>::max();
     cells.largestRadius = std::numeric_limits<float>::min();
     for (const Sphere& particle : particles) {
-        bounds.add(particle.center);
         if (particle.radius <= 0.0F) continue;
         cells.smallestRadius = std::min(cells.smallestRadius, particle.radius);
         cells.largestRadius = std::max(cells.largestRadius, particle.radius);
     }
-    cells.low = bounds.low;
     cells.side = reach * cells.largestRadius;
     // A kernel may end at a particle's distance less its radius, which is less than half of the ball's.
     if (cells.smallestRadius < 0.5F * cells.largestRadius) cells.side += 0.5F * cells.largestRadius;
+}
+
+/// Places cells around the particles, and makes them wider if there were too many.
+void fitToPositions(std::span<const Sphere> particles, ParticleCells& cells) {
+    Bounds<glm::vec3> bounds;
+    for (const Sphere& particle : particles) bounds.add(particle.center);
+    cells.low = bounds.low;
     const auto countAlong = [&](int axis) {
         return std::floor(double(bounds.high[axis] - bounds.low[axis]) / cells.side) + 1.0;
     };
@@ -220,7 +228,8 @@ void fitToParticles(std::span<const Sphere> particles, float reach, ParticleCell
 /// radii
 ParticleCells sortIntoCells(std::span<const Sphere> particles, float reach) {
     ParticleCells cells;
-    fitToParticles(particles, reach, cells);
+    fitToRadii(particles, reach, cells);
+    fitToPositions(particles, cells);
     std::vector<std::uint32_t> cellOf(particles.size());
     cells.begin.assign(cellIndex(cells.count, 0, 0, cells.count.z) + 1, 0);
     for (std::size_t k = 0; k < particles.size(); ++k) {
@@ -260,6 +269,34 @@ SkinBall smoothed(const NeighborInfluence& influence, const Sphere& particle, fl
     return ball;
 }
 
+/// Makes the balls of a smooth skin for particles that only each other influence.
+void smooth(std::span<const Sphere> particles, float reach, std::span<SkinBall> balls) {
+    const ParticleCells cells = sortIntoCells(particles, reach);
+    constexpr std::size_t kChunk = 128;
+    const std::size_t count = cells.index.size();
+    tbb::parallel_for(std::size_t{0}, (count + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+        const std::size_t first = chunk * kChunk;
+        std::array<NeighborInfluence, kChunk> buffer;
+        const auto influences = std::span(buffer).first(std::min(kChunk, count - first));
+        HWY_DYNAMIC_DISPATCH(neighborInfluences)(cells, reach, first, influences);
+        for (std::size_t k = 0; k < influences.size(); ++k) {
+            const std::uint32_t index = cells.index[first + k];
+            balls[index] = smoothed(influences[k], particles[index], reach);
+        }
+    });
+}
+
+/// smooth() for some of the particles.
+void smoothGroup(std::span<const Sphere> particles, std::span<const std::uint32_t> group, float reach,
+                 std::span<SkinBall> balls) {
+    std::vector<Sphere> members;
+    members.reserve(group.size());
+    for (const std::uint32_t index : group) members.push_back(particles[index]);
+    std::vector<SkinBall> theirs(group.size());
+    smooth(members, reach, theirs);
+    for (std::size_t k = 0; k < group.size(); ++k) balls[group[k]] = theirs[k];
+}
+
 }  // namespace
 
 BallKernel kernelOf(const SkinBall& ball) {
@@ -280,19 +317,12 @@ std::vector<SkinBall> skinOf(const View& view) {
         return balls;
     }
     if (balls.empty()) return balls;
-    const ParticleCells cells = sortIntoCells(view.particles, view.field.reach);
-    constexpr std::size_t kChunk = 128;
-    const std::size_t count = cells.index.size();
-    tbb::parallel_for(std::size_t{0}, (count + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-        const std::size_t first = chunk * kChunk;
-        std::array<NeighborInfluence, kChunk> buffer;
-        const auto influences = std::span(buffer).first(std::min(kChunk, count - first));
-        HWY_DYNAMIC_DISPATCH(neighborInfluences)(cells, view.field.reach, first, influences);
-        for (std::size_t k = 0; k < influences.size(); ++k) {
-            const std::uint32_t index = cells.index[first + k];
-            balls[index] = smoothed(influences[k], view.particles[index], view.field.reach);
-        }
-    });
+    ParticleCells widest;
+    fitToRadii(view.particles, view.field.reach, widest);
+    // A little wider than particles influence each other, because distances are rounded.
+    const auto groups = separateGroups(view.particles, 1.001F * widest.side, kMostCells);
+    if (groups.empty()) smooth(view.particles, view.field.reach, balls);
+    for (const std::vector<std::uint32_t>& group : groups) smoothGroup(view.particles, group, view.field.reach, balls);
     return balls;
 }
 

@@ -6,7 +6,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <iterator>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -255,6 +258,43 @@ std::vector<std::uint8_t> flagsOfKept(const View& view, glm::vec3 eye, VisibleVo
     return flagsOf(balls, [&](const Ball& ball) { return contains(around, ball.center) || visible.isChangedBy(ball); });
 }
 
+using Group = std::vector<std::uint32_t>;
+
+bool isSmall(const Bounds<glm::vec3>& box, float gap, double mostCells) {
+    double count = 1.0;
+    for (int axis = 0; axis < 3; ++axis)
+        count *= std::floor(double(box.high[axis] - box.low[axis]) / double(gap)) + 1.0;
+    return count <= mostCells;
+}
+
+bool isSmall(std::span<const Sphere> particles, const Group& group, float gap, double mostCells) {
+    Bounds<glm::vec3> box;
+    for (const std::uint32_t index : group) box.add(particles[index].center);
+    return isSmall(box, gap, mostCells);
+}
+
+/// The parts of a group between its gaps along an axis. @param group  is left in the order of the coordinates
+std::vector<Group> partsAlong(std::span<const Sphere> particles, int axis, float gap, Group& group) {
+    const auto at = [&](std::uint32_t index) { return particles[index].center[axis]; };
+    std::ranges::sort(group, {}, at);
+    std::vector<Group> parts;
+    for (std::size_t begin = 0; begin < group.size();) {
+        std::size_t end = begin + 1;
+        while (end < group.size() && !(at(group[end]) - at(group[end - 1]) > gap)) ++end;
+        parts.emplace_back(group.begin() + static_cast<std::ptrdiff_t>(begin),
+                           group.begin() + static_cast<std::ptrdiff_t>(end));
+        begin = end;
+    }
+    return parts;
+}
+
+/// The parts of a group between its gaps along the first axis that has any; one part if there are none.
+std::vector<Group> partsOf(std::span<const Sphere> particles, float gap, Group& group) {
+    std::vector<Group> parts;
+    for (int axis = 0; axis < 3 && parts.size() < 2; ++axis) parts = partsAlong(particles, axis, gap, group);
+    return parts;
+}
+
 }  // namespace
 
 std::optional<View> withoutStrays(const View& view, const CameraFrame& frame) {
@@ -266,6 +306,28 @@ std::optional<View> withoutStrays(const View& view, const CameraFrame& frame) {
     keepFlagged(std::span(kept).first(view.particles.size()), near.particles);
     keepFlagged(std::span(kept).subspan(view.particles.size()), near.sphereObstacles);
     return near;
+}
+
+std::vector<Group> separateGroups(std::span<const Sphere> particles, float gap, double mostCells) {
+    Bounds<glm::vec3> all;
+    for (const Sphere& particle : particles) all.add(particle.center);
+    if (isSmall(all, gap, mostCells)) return {};
+    std::vector<Group> pending(1, Group(particles.size()));
+    std::iota(pending.front().begin(), pending.front().end(), 0U);
+    std::vector<Group> groups;
+    while (!pending.empty()) {
+        Group group = std::move(pending.back());
+        pending.pop_back();
+        std::vector<Group> parts;
+        if (!isSmall(particles, group, gap, mostCells)) parts = partsOf(particles, gap, group);
+        if (parts.size() > 1) {
+            std::ranges::move(parts, std::back_inserter(pending));
+            continue;
+        }
+        std::ranges::sort(group);
+        groups.push_back(std::move(group));
+    }
+    return groups.size() > 1 ? groups : std::vector<Group>();
 }
 
 }  // namespace render
