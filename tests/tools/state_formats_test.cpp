@@ -79,7 +79,8 @@ TEST_CASE("A run in several formats is resumed to the same bytes", "[state-forma
     REQUIRE(run(states(folder / "whole", flags)).code == 0);
     const auto whole = particlesIn(folder / "whole");
     REQUIRE(whole.size() == (hasOpenVdb() ? 6 : 5) * 29 + 1);
-    early_ends::interrupted(states(folder / "a", flags), "KILL", early_ends::after(100), folder / "log");
+    const std::string tenth = "[ -e " + (folder / "a/particles-00010.xyz").string() + " ]";
+    early_ends::interrupted(states(folder / "a", flags), "KILL", early_ends::onceThat(tenth), folder / "log");
     // Each file that is there is whole, and so is the series, which names no file that is not there.
     for (const auto& [name, text] : particlesIn(folder / "a"))
         if (name != "particles.vtp.series") CHECK(text == whole.at(name));
