@@ -240,7 +240,7 @@ TEST_CASE("A level pool keeps its volume", "[mesh]") {
     const auto count = static_cast<double>(view.particles.size());
     // Of one lattice cell a particle. Points of the oracle's field that are 0.1 radii apart tell the depth of the pool,
     // nine radii, to about a hundredth of a radius and the volume to 0.001. At 0.25 radii, as in `globular study
-    // pictures`, they find 0.996, at 0.05 radii 0.9935.
+    // pictures`, they find 0.996; at 0.05 radii it is 0.9935.
     const double volume = studies::fieldVolume(view, 0.1) / count;
     CHECK(volume == Approx(0.9937).margin(0.0005));
     for (const double cell : {0.5, 0.25}) {
