@@ -139,6 +139,11 @@ TEST_CASE("The metaballs' field is written like particles, the same for any numb
     CHECK(run(states(folder / "a", flags + " --resume --set look.skin=smooth")).code == 1);
     REQUIRE(run(states(folder / "a", flags + " --overwrite --set look.skin=smooth")).code == 0);
     CHECK(particlesIn(folder / "a").at("particles-00003.vdb") != fields.at("particles-00003.vdb"));
+    const std::string spheres = "simulate powder --frames 0 --set look.style=spheres -o " + (folder / "d").string();
+    CHECK(run(spheres + " --format vdb")
+              .err.find("the scene is drawn as spheres; the field is of metaballs with "
+                        "look.metaball_reach = 2.5") != std::string::npos);
+    CHECK(run(spheres + " --format ply --overwrite").err.find("metaballs") == std::string::npos);
     // A folder of fields has no particles to draw.
     const auto drawn = run("render powder --frames 1 -o " + (folder / "c").string() +
                            " --set look.skin=smooth --states " + (folder / "a").string());

@@ -28,25 +28,6 @@ struct MeshOptions {
     MeshSettings mesh;
 };
 
-/// Whether the scene file or an override gives a key.
-bool isGiven(const scenes::Scene& scene, const std::string& path) {
-    return std::any_of(scene.values.begin(), scene.values.end(), [&](const scenes::EffectiveValue& value) {
-        return value.path == path && value.origin == scenes::ValueOrigin::given;
-    });
-}
-
-/// Tells which metaballs the mesh of a scene that is drawn as spheres is of.
-void tellOfMetaballs(const scenes::Scene& scene, const RunOptions& options) {
-    if (scene.look.common.style == render::Style::metaballs || options.verbosity() != Verbosity::normal) return;
-    const render::MetaballField& field = scene.look.common.field;
-    const auto origin = [&](const char* key) { return isGiven(scene, key) ? "" : " (default)"; };
-    printToStderr(
-        fmt::format("the scene is drawn as spheres; the mesh is of metaballs with look.metaball_reach = "
-                    "{:g}{} and look.skin = \"{}\"{}\n",
-                    field.reach, origin("look.metaball_reach"), field.skin == render::Skin::smooth ? "smooth" : "plain",
-                    origin("look.skin")));
-}
-
 /// The work on one frame of a run: its mesh, which is stored where it is not there yet.
 void meshFrame(const SequencedFrame& frame, const FrameMesher& mesher, FrameSource& source, Progress& progress) {
     RunReport& report = source.report();
@@ -127,7 +108,7 @@ void mesh(MeshOptions options) {
         warnOfStart(options.scene, scene, threadCount(options.run));
     else if (options.scene.isStrict)
         refuse(scene.warnings);
-    tellOfMetaballs(scene, options.run);
+    if (options.run.verbosity() == Verbosity::normal) printToStderr(metaballsNote(scene, "the mesh"));
     FinishedRun run;
     onThreads(threadCount(options.run), [&] { run = meshFrames(scene, frames, options, states ? &*states : nullptr); });
     const RunReport& report = run.report;

@@ -11,10 +11,12 @@
 #include "scenes/particles/vtp.h"
 #include "tools/commands/commands.h"
 #include "tools/mesh/frame_field.h"
+#include "tools/mesh/scene_metaballs.h"
 #include "tools/run/frame_sequence.h"
 #include "tools/run/run_warnings.h"
 #include "tools/system/command_files.h"
 #include "tools/system/memory.h"
+#include "tools/system/process.h"
 #include "tools/system/threads.h"
 
 namespace tools {
@@ -159,6 +161,8 @@ void simulate(SimulateOptions options) {
     requireSeparate({scene.files, {}, {{"-o", folder, isRunFile}}});
     warnOfStart(options.scene, scene, threadCount(options.run));
     if (options.host != nullptr) options.host->load(options.scene);
+    if (isWanted(options, kFieldNames.format) && options.run.verbosity() == Verbosity::normal)
+        printToStderr(metaballsNote(scene, "the field"));
     FinishedRun run;
     onThreads(threadCount(options.run), [&] { run = simulateFrames(scene, frames, options, name); });
     const RunReport& report = run.report;

@@ -10,13 +10,7 @@
 #include "tools/system/memory.h"
 
 namespace tools {
-namespace {
-
-const char* nameOf(render::Skin skin) {
-    return skin == render::Skin::smooth ? "smooth" : "plain";
-}
-
-}  // namespace
+namespace {}  // namespace
 
 FrameMesher::FrameMesher(const scenes::Scene& scene, const MeshSettings& settings)
     : scene_(scene), settings_(settings), lattice_(latticeOf(scene, settings.cell)) {

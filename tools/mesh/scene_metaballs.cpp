@@ -1,5 +1,7 @@
 #include "tools/mesh/scene_metaballs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -22,6 +24,13 @@ double cellRadius(const scenes::Scene& scene) {
     return std::max(smallest, 0.1 * largest);
 }
 
+/// Whether the scene file or an override gives a key.
+bool isGiven(const scenes::Scene& scene, const std::string& path) {
+    return std::ranges::any_of(scene.values, [&](const scenes::EffectiveValue& value) {
+        return value.path == path && value.origin == scenes::ValueOrigin::given;
+    });
+}
+
 }  // namespace
 
 Lattice latticeOf(const scenes::Scene& scene, double cell) {
@@ -36,6 +45,20 @@ render::View metaballsOf(const scenes::Scene& scene, const engine::Simulation& s
     const glm::dvec3& origin = lattice.origin;
     view.particles = scenes::drawnParticles(scene, simulation, engine::Vec3(origin.x, origin.y, origin.z));
     return view;
+}
+
+const char* nameOf(render::Skin skin) {
+    return skin == render::Skin::smooth ? "smooth" : "plain";
+}
+
+std::string metaballsNote(const scenes::Scene& scene, const char* file) {
+    if (scene.look.common.style == render::Style::metaballs) return "";
+    const render::MetaballField& field = scene.look.common.field;
+    const auto origin = [&](const char* key) { return isGiven(scene, key) ? "" : " (default)"; };
+    return fmt::format(
+        "the scene is drawn as spheres; {} is of metaballs with look.metaball_reach = {:g}{} and look.skin = "
+        "\"{}\"{}\n",
+        file, field.reach, origin("look.metaball_reach"), nameOf(field.skin), origin("look.skin"));
 }
 
 }  // namespace tools

@@ -2,6 +2,8 @@
 // of the cell and origin are the scene's, not the frame's, so that the lattice stays in its place.
 #pragma once
 
+#include <string>
+
 #include <glm/glm.hpp>
 
 #include "engine/state/simulation.h"
@@ -27,5 +29,13 @@ Lattice latticeOf(const scenes::Scene& scene, double cell);
 /// The particles of a simulation's present state, and which field of metaballs the scene makes of them, whatever its
 /// style is.
 render::View metaballsOf(const scenes::Scene& scene, const engine::Simulation& simulation, const Lattice& lattice);
+
+/// The name of a skin in scene files.
+const char* nameOf(render::Skin skin);
+
+/// A line that says which metaballs a file of a scene is of where pictures show none, since they show spheres; empty
+/// for a scene that is drawn as metaballs.
+/// @param file  what it is, such as "the mesh"
+std::string metaballsNote(const scenes::Scene& scene, const char* file);
 
 }  // namespace tools
