@@ -50,9 +50,10 @@ PictureSize checkedSize(PictureSize size) {
 }  // namespace
 
 struct Renderer::Parts {
-    const PreparedView& prepare(const View& view) {
+    const PreparedView& prepare(const View& view, bool isShaded) {
         requireFinite(view);
         times = {};
+        settings.isShaded = isShaded;
         prepareView(view, settings, prepared, times);
         return prepared;
     }
@@ -76,14 +77,24 @@ Renderer::Renderer(Context& context, PictureSize size, Quality quality) : parts_
 Renderer::~Renderer() = default;
 
 Image Renderer::draw(const View& view, Image old) {
-    const PreparedView& prepared = parts_->prepare(view);
-    Image image = parts_->renderer->draw(prepared, std::move(old), parts_->times);
-    drawOverlay(image, view.overlay, view.camera);
-    return image;
+    Layers layers;
+    layers.image = std::move(old);
+    draw(view, {.image = true}, layers);
+    return std::move(layers.image);
+}
+
+void Renderer::draw(const View& view, const LayerSelection& wanted, Layers& layers) {
+    if (wanted.ids && view.particleIds.size() != view.particles.size())
+        throw std::logic_error(
+            fmt::format("render: {} particles have {} ids", view.particles.size(), view.particleIds.size()));
+    parts_->renderer->draw(parts_->prepare(view, wanted.isShaded()), wanted, layers, parts_->times);
+    if (wanted.image) drawOverlay(layers.image, view.overlay, view.camera);
 }
 
 std::vector<VisiblePoint> Renderer::visiblePoints(const View& view) {
-    return parts_->renderer->visiblePoints(parts_->prepare(view));
+    Layers layers;
+    draw(view, {.points = true}, layers);
+    return std::move(layers.points);
 }
 
 const DrawTimes& Renderer::times() const {

@@ -7,7 +7,7 @@
 
 #include "render/opengl/context/context.h"
 #include "render/picture/draw_times.h"
-#include "render/picture/image.h"
+#include "render/picture/layers.h"
 #include "render/picture/view.h"
 
 namespace render {
@@ -32,6 +32,13 @@ class Renderer {
     /// @throws SystemError  if OpenGL fails, or if the tiles' lists of spheres or lines become too long
     /// @throws std::logic_error  if the view has numbers that are not finite
     Image draw(const View& view, Image old = {});
+
+    /// Draws layers of a view. Each has the same bytes whichever others are drawn with it. OpenGL draws no
+    /// colors with alpha and no ids.
+    /// @param layers  those of a picture that is no longer needed, whose memory is reused
+    /// @throws as draw() above
+    /// @throws std::logic_error  if OpenGL is to draw one that it does not, or View::particleIds are missing
+    void draw(const View& view, const LayerSelection& wanted, Layers& layers);
 
     /// The point of a surface that each pixel of the view's picture shows, row by row from the top left, found as for
     /// the picture.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "render/cpu/metaballs/metaball_frame.h"
+#include "render/cpu/surface_layers.h"
 
 namespace render {
 
@@ -22,6 +23,11 @@ std::vector<Sampling> samplingsOf(Quality quality) {
     return samplings;
 }
 
+/// Rays through the middles of the pixels alone, which hit what the rays of a picture hit there.
+Sampling middlesOf(Quality quality) {
+    return {.isSparse = quality != Quality::final};
+}
+
 std::size_t pixelCount(PictureSize size) {
     return static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
 }
@@ -34,24 +40,29 @@ CpuRenderer::CpuRenderer(PictureSize size, Quality quality)
       quality_(quality),
       pixels_(pixelCount(padded_)) {}
 
-Image CpuRenderer::draw(const PreparedView& view, Image image, DrawTimes& times) {
+void CpuRenderer::draw(const PreparedView& view, const LayerSelection& wanted, Layers& layers, DrawTimes& times) {
     shading_ = shadingOf(*view.view);
-    for (const Sampling& sampling : samplingsOf(quality_)) {
+    blackShading_ = shading_;
+    blackShading_.background = {};
+    // What the middles of the pixels show needs no other rays.
+    const std::vector<Sampling> samplings =
+        wanted.isShaded() ? samplingsOf(quality_) : std::vector{middlesOf(quality_)};
+    for (const Sampling& sampling : samplings) {
         cast(view, sampling, times);
-        timed(times.color, [&] {
-            colorPixels(pictureJob(view, sampling), {sampling.index, sampling.count, sums_}, background_, pixels_);
-        });
+        timed(times.color, [&] { drawLayers(view, sampling, wanted, layers); });
     }
-    timed(times.readBack, [&] { image = packedImage(size_, pixels_, padded_.width, std::move(image)); });
-    return image;
+    if (!wanted.image) return;
+    timed(times.readBack, [&] { layers.image = packedImage(size_, pixels_, padded_.width, std::move(layers.image)); });
 }
 
-std::vector<VisiblePoint> CpuRenderer::visiblePoints(const PreparedView& view) {
-    const Sampling sampling{.isSparse = quality_ != Quality::final};
-    shading_ = shadingOf(*view.view);
-    DrawTimes times;
-    cast(view, sampling, times);
-    return render::visiblePoints(pictureJob(view, sampling));
+void CpuRenderer::drawLayers(const PreparedView& view, const Sampling& sampling, const LayerSelection& wanted,
+                             Layers& layers) {
+    const PictureJob job = pictureJob(view, sampling, shading_);
+    if (wanted.image) colorPixels(job, {sampling.index, sampling.count, sums_}, background_, pixels_);
+    if (wanted.color)
+        colorLayer(pictureJob(view, sampling, blackShading_), sampling.index, sampling.count, layers.color);
+    const bool isOfMiddles = sampling.offset == glm::vec2(0.0F);
+    if (isOfMiddles && (wanted.points || wanted.ids)) findSurfaceLayers(job, view, wanted, layers);
 }
 
 // In final quality the rays of a sampling are moved by a third of a pixel. The texels of the depth map are moved by a
@@ -96,7 +107,7 @@ Occluders CpuRenderer::occludersOf(const PreparedView& view) const {
 }
 
 /// The job points into the prepared view, the sampling and this object, which have to outlive it.
-PictureJob CpuRenderer::pictureJob(const PreparedView& view, const Sampling& sampling) const {
+PictureJob CpuRenderer::pictureJob(const PreparedView& view, const Sampling& sampling, const Shading& shading) const {
     const std::vector<BoxObstacle>& boxes = view.view->boxObstacles;
     const SolidGeometry solids{view.frame, view.viewSpheres, view.spherePixels, &view.sphereTiles,
                                boxes,      view.boxFronts,   &view.boxTiles,    view.groundHeight()};
@@ -115,7 +126,7 @@ PictureJob CpuRenderer::pictureJob(const PreparedView& view, const Sampling& sam
             sampling.samples == 1 ? SampleOffsets(&sampling.offset, 1) : kFourSamples,
             geometry,
             occluders.isEmpty() ? std::nullopt : std::optional(occluders),
-            shading_};
+            shading};
 }
 
 }  // namespace render

@@ -27,19 +27,20 @@ class CpuRenderer final : public ViewRenderer {
  public:
     CpuRenderer(PictureSize size, Quality quality);
 
-    Image draw(const PreparedView& view, Image image, DrawTimes& times) override;
-    std::vector<VisiblePoint> visiblePoints(const PreparedView& view) override;
+    void draw(const PreparedView& view, const LayerSelection& wanted, Layers& layers, DrawTimes& times) override;
 
  private:
+    void drawLayers(const PreparedView& view, const Sampling& sampling, const LayerSelection& wanted, Layers& layers);
     void castDepthMap(const PreparedView& view, glm::vec2 offset);
     void cast(const PreparedView& view, const Sampling& sampling, DrawTimes& times);
-    PictureJob pictureJob(const PreparedView& view, const Sampling& sampling) const;
+    PictureJob pictureJob(const PreparedView& view, const Sampling& sampling, const Shading& shading) const;
     Occluders occludersOf(const PreparedView& view) const;
 
     PictureSize size_;
     PictureSize padded_;  // size of whole tiles
     Quality quality_;
     Shading shading_;
+    Shading blackShading_;  // without background, for Layers::color
     MetaballHits metaballHits_;
     DepthMap depthMap_;
     BackgroundCache background_;

@@ -66,16 +66,54 @@ void shadePoints(const PictureJob& job, const ShadingPoints& points, PointColors
     shade(job.shading, job.geometry, points, job.occluders ? &visibility : nullptr, colors);
 }
 
+std::array<std::int32_t, kTilePixels> uniformHits(std::int32_t hitId) {
+    std::array<std::int32_t, kTilePixels> hitIds;
+    hitIds.fill(hitId);
+    return hitIds;
+}
+
+/// The share of a shading point that is not background, as in Layers::color.
+float alphaOf(const PictureJob& job, const ShadingPoints& points, std::size_t k) {
+    if (points.hitId[k] == kHitBackground) return 0.0F;
+    if (points.hitId[k] != kHitGround) return 1.0F;
+    const glm::vec3 at{points.position[0][k], points.position[1][k], points.position[2][k]};
+    const glm::vec3 offset = (at - job.shading.groundCenter) / job.shading.fadeDistance;
+    const float square = dot(offset, offset);
+    return 1.0F / (1.0F + square * square);
+}
+
 /// The colors of one tile's pixels, ordered along the Z curve.
 class TileColors {
  public:
-    TileColors(const PictureJob& job, std::size_t tile) : job_(job), tile_(tile) {}
+    enum class Alpha { none, computed };
 
+    TileColors(const PictureJob& job, std::size_t tile, Alpha alpha = Alpha::none)
+        : job_(job), tile_(tile), hasAlpha_(alpha == Alpha::computed) {}
+
+    void colorAll() {
+        const TileContents& contents = job_.contents;
+        if (contents.kindOf(tile_) == TileKind::occludedGround) return colorPixels(uniformHits(kHitGround));
+        const TileSamples samples(contents, job_.offsets, tile_);
+        colorPixels(samples.hitIds());
+        thread_local TileEdges edges;
+        samples.findEdges(edges);
+        if (!edges.pixels.empty()) colorEdges(edges);
+        if (contents.hasLines(tile_)) addLines(samples.rays());
+    }
+
+    const PointColors& colors() const { return colors_; }
+
+    /// The color and alpha of a pixel. @pre alpha is computed
+    glm::vec4 at(std::size_t k) const { return {colors_.rgb[0][k], colors_.rgb[1][k], colors_.rgb[2][k], alpha_[k]}; }
+
+ private:
     /// Gives each pixel the color of what its first sample hits.
     void colorPixels(std::span<const std::int32_t, kTilePixels> hitIds) {
         ShadingPoints points;
         pixelPoints(job_, tile_, hitIds, points);
         shadePoints(job_, points, colors_);
+        if (!hasAlpha_) return;
+        for (std::size_t k = 0; k < kTilePixels; ++k) alpha_[k] = alphaOf(job_, points, k);
     }
 
     /// Replaces the colors of the pixels that an outline crosses.
@@ -99,12 +137,10 @@ class TileColors {
                 float& value = colors_.rgb[static_cast<std::size_t>(channel)][k];
                 value = std::min(value * (1.0F - line.w) + line[channel], 1.0F);
             }
+            if (hasAlpha_) alpha_[k] = std::min(alpha_[k] * (1.0F - line.w) + line.w, 1.0F);
         }
     }
 
-    const PointColors& colors() const { return colors_; }
-
- private:
     /// Colors some of the pixels that an outline crosses.
     /// @param hits  begins with the hits of these pixels
     /// @return the number of their hits
@@ -128,20 +164,25 @@ class TileColors {
         std::size_t k = 0;
         for (const EdgePixel& edge : pixels) {
             glm::vec3 sum(0.0F);
+            float alpha = 0.0F;
             for (const std::size_t last = k + edge.hitCount; k < last; ++k) {
                 const float count = static_cast<float>(std::popcount(hits[k].sampleMask));
                 sum += count * glm::vec3(colors.rgb[0][k], colors.rgb[1][k], colors.rgb[2][k]);
+                if (hasAlpha_) alpha += count * alphaOf(job_, points, k);
             }
             const std::size_t rank = kZCurveTables.rank[edge.pixel];
             for (std::size_t channel = 0; channel < 3; ++channel)
                 colors_.rgb[channel][rank] = 0.25F * sum[static_cast<int>(channel)];
+            if (hasAlpha_) alpha_[rank] = 0.25F * alpha;
         }
         return k;
     }
 
     const PictureJob& job_;
     std::size_t tile_;
+    bool hasAlpha_;
     PointColors colors_;
+    std::array<float, kTilePixels> alpha_;  // only with hasAlpha_
 };
 
 TileTarget targetOf(const CellLists& tiles, std::size_t tile, std::span<PixelColor> pixels) {
@@ -171,30 +212,14 @@ void divideColors(float divisor, PointColors& colors) {
         for (float& value : channel) value /= divisor;
 }
 
-std::array<std::int32_t, kTilePixels> uniformHits(std::int32_t hitId) {
-    std::array<std::int32_t, kTilePixels> hitIds;
-    hitIds.fill(hitId);
-    return hitIds;
-}
-
 /// Whether the colors of a tile follow from the camera, the background and the ground alone.
 bool isUnoccluded(TileKind kind) {
     return kind == TileKind::background || kind == TileKind::openGround;
 }
 
 void colorTile(const PictureJob& job, std::size_t tile, const PictureMean& mean, const TileTarget& target) {
-    const TileContents& contents = job.contents;
     TileColors colors(job, tile);
-    if (contents.kindOf(tile) == TileKind::occludedGround) {
-        colors.colorPixels(uniformHits(kHitGround));
-    } else {
-        const TileSamples samples(contents, job.offsets, tile);
-        colors.colorPixels(samples.hitIds());
-        thread_local TileEdges edges;
-        samples.findEdges(edges);
-        if (!edges.pixels.empty()) colors.colorEdges(edges);
-        if (contents.hasLines(tile)) colors.addLines(samples.rays());
-    }
+    colors.colorAll();
     if (mean.count == 1) {
         writeTile(colors.colors(), target);
         return;
@@ -237,23 +262,25 @@ void colorPixels(const PictureJob& job, const PictureMean& mean, BackgroundCache
     });
 }
 
-std::vector<VisiblePoint> visiblePoints(const PictureJob& job) {
+void colorLayer(const PictureJob& job, std::size_t index, std::size_t count, std::vector<glm::vec4>& layer) {
     const CellLists& tiles = *job.contents.geometry.tiles;
     const CameraFrame& frame = job.geometry.frame;
-    std::vector<VisiblePoint> found(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
+    layer.resize(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
     tbb::parallel_for(std::size_t{0}, tiles.cellCount(), [&](std::size_t tile) {
-        ShadingPoints points;
-        pixelPoints(job, tile, TileSamples(job.contents, job.offsets, tile).hitIds(), points);
+        const bool isEmpty = job.contents.kindOf(tile) == TileKind::background;
+        TileColors colors(job, tile, TileColors::Alpha::computed);
+        if (!isEmpty) colors.colorAll();
         const glm::ivec2 corner(tileCorner(tiles, tile));
         for (std::size_t k = 0; k < kTilePixels; ++k) {
             const glm::ivec2 at = corner + glm::ivec2(kZCurve[k] % kTileSize, kZCurve[k] / kTileSize);
             if (at.x >= frame.width || at.y >= frame.height) continue;
-            VisiblePoint& point = found[static_cast<std::size_t>(at.y * frame.width + at.x)];
-            point.normal = {points.normal[0][k], points.normal[1][k], points.normal[2][k]};
-            point.depth = points.hitId[k] == kHitBackground ? -1.0F : points.depth[k];
+            glm::vec4& pixel = layer[static_cast<std::size_t>(at.y) * static_cast<std::size_t>(frame.width) +
+                                     static_cast<std::size_t>(at.x)];
+            const glm::vec4 color = isEmpty ? glm::vec4(0.0F) : colors.at(k);
+            pixel = index == 0 ? color : pixel + color;
+            if (index + 1 == count) pixel /= static_cast<float>(count);
         }
     });
-    return found;
 }
 
 }  // namespace render

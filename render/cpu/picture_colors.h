@@ -1,4 +1,4 @@
-// The colors of a picture's pixels, and the surface points that they show, tile by tile. Called by cpu_renderer.cpp.
+// The colors of a picture's pixels, tile by tile. Called by cpu_renderer.cpp.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,6 @@
 #include "render/cpu/lighting/shading_points.h"
 #include "render/cpu/shading/shade.h"
 #include "render/cpu/tile_samples.h"
-#include "render/picture/image.h"
 
 namespace render {
 
@@ -63,7 +62,9 @@ class BackgroundCache {
 /// @param pixels  pixels of all tiles, row by row, as the last picture with this cache left them
 void colorPixels(const PictureJob& job, const PictureMean& mean, BackgroundCache& cache, std::span<PixelColor> pixels);
 
-/// The surface point that the first sample of each pixel of the picture hits, row by row.
-std::vector<VisiblePoint> visiblePoints(const PictureJob& job);
+/// Colors the pixels of the layer Layers::color. If the picture is a mean of several samplings, the layer has the sum
+/// of their colors until the last.
+/// @param job  with a black background
+void colorLayer(const PictureJob& job, std::size_t index, std::size_t count, std::vector<glm::vec4>& layer);
 
 }  // namespace render

@@ -2,6 +2,7 @@
 #include "render/opengl/opengl_renderer.h"
 
 #include <cstdint>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -19,10 +20,12 @@ class OpenGlRenderer final : public ViewRenderer {
     OpenGlRenderer(Context& context, PictureSize size, Quality quality);
     ~OpenGlRenderer() override;
 
-    Image draw(const PreparedView& view, Image image, DrawTimes& times) override;
-    std::vector<VisiblePoint> visiblePoints(const PreparedView& view) override;
+    void draw(const PreparedView& view, const LayerSelection& wanted, Layers& layers, DrawTimes& times) override;
 
  private:
+    void drawImage(const PreparedView& view, Image& image, DrawTimes& times);
+    std::vector<VisiblePoint> visiblePoints(const PreparedView& view);
+
     Context& context_;
     PictureSize size_;
     std::unique_ptr<PicturePasses> passes_;
@@ -46,19 +49,22 @@ OpenGlRenderer::~OpenGlRenderer() {
     }
 }
 
-Image OpenGlRenderer::draw(const PreparedView& view, Image image, DrawTimes& times) {
+void OpenGlRenderer::draw(const PreparedView& view, const LayerSelection& wanted, Layers& layers, DrawTimes& times) {
+    if (wanted.color || wanted.ids) throw std::logic_error("render: OpenGL draws no colors with alpha and no ids");
     const CurrentContext current(context_);
     timed(times.upload, [&] { passes_->upload(view); });
+    if (wanted.image) drawImage(view, layers.image, times);
+    if (wanted.points) timed(times.color, [&] { layers.points = visiblePoints(view); });
+}
+
+void OpenGlRenderer::drawImage(const PreparedView& view, Image& image, DrawTimes& times) {
     timed(times.color, [&] { passes_->drawPicture(view, pixels_); });
     checkGl(context_.gl(), "drawing a frame");
     const int rowLength = passes_->size().width;
     timed(times.readBack, [&] { image = packedImage(size_, pixels_, rowLength, std::move(image)); });
-    return image;
 }
 
 std::vector<VisiblePoint> OpenGlRenderer::visiblePoints(const PreparedView& view) {
-    const CurrentContext current(context_);
-    passes_->upload(view);
     const std::vector<glm::vec4> pixels = passes_->visiblePoints(view, size_);
     checkGl(context_.gl(), "drawing the points of surfaces");
     std::vector<VisiblePoint> found(pixels.size());

@@ -32,7 +32,7 @@ Image packedImage(PictureSize size, std::span<const std::uint32_t> pixels, int r
 /// Where the ray through a pixel's center first meets a surface. On metaballs in draft and normal quality, the point is
 /// interpolated where the renderer casts no ray through the pixel.
 struct VisiblePoint {
-    glm::vec3 normal{0.0F};  ///< surface normal in world axes, unit length
+    glm::vec3 normal{0.0F};  ///< surface normal in world axes, unit length; of no meaning where the ray meets nothing
     float depth = -1.0F;     ///< view depth of the point, m; -1 where the ray meets nothing
 };
 

@@ -113,7 +113,8 @@ struct View {
     std::vector<SphereObstacle> sphereObstacles;
     std::vector<BoxObstacle> boxObstacles;
     std::vector<Edge> edges;
-    Overlay overlay;  ///< text and scales, drawn last over the finished picture
+    Overlay overlay;                         ///< text and scales, drawn last over the finished picture
+    std::vector<std::uint32_t> particleIds;  ///< number of each particle, for Layers::ids; empty if that is not drawn
 };
 
 struct PictureSize {

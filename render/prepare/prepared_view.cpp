@@ -23,7 +23,7 @@ bool needsSkyVisibility(const View& view) {
 
 void findSkyVisibility(PreparedView& to) {
     const View& view = *to.view;
-    to.needsSkyVisibility = needsSkyVisibility(view);
+    to.needsSkyVisibility = to.settings.isShaded && needsSkyVisibility(view);
     to.skyGrid = to.needsSkyVisibility ? skyVisibilityGrid(view.particles, std::move(to.skyGrid)) : SkyVisibilityGrid{};
     to.particleSky =
         to.needsSkyVisibility ? particleSkyVisibility(view.particles, to.skyGrid) : std::vector<SkyVisibility>{};
@@ -44,7 +44,7 @@ void binForCamera(PreparedView& to) {
 
 void binForLight(PreparedView& to) {
     const View& view = *to.view;
-    const bool castsShadows = view.light.shadows;
+    const bool castsShadows = to.settings.isShaded && view.light.shadows;
     to.lightGrid = castsShadows ? lightGrid(to.light, to.drawn.spheres, view.light.softness) : LightGrid{};
     to.lightBoxes = castsShadows
                         ? lightBoxGrid(to.light, to.frame, view.boxObstacles, view.light.softness * to.meanRadius)

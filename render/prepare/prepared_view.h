@@ -25,6 +25,7 @@ struct PrepareSettings {
     PictureSize size;
     int depthMapTexels = 1024;     ///< number of texels along the longer side of the metaballs' depth map
     int depthMapRaysPerTexel = 1;  ///< rays along each side of a texel: pixels of the picture that the light sees
+    bool isShaded = true;          ///< whether light is computed; if not, nothing is prepared for it
 };
 
 struct PreparedView {

@@ -304,6 +304,7 @@ std::optional<View> withoutStrays(const View& view, const CameraFrame& frame) {
     if (std::ranges::find(kept, 0) == kept.end()) return std::nullopt;
     View near = view;
     keepFlagged(std::span(kept).first(view.particles.size()), near.particles);
+    keepFlagged(std::span(kept).first(near.particleIds.size()), near.particleIds);
     keepFlagged(std::span(kept).subspan(view.particles.size()), near.sphereObstacles);
     return near;
 }

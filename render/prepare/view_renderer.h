@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "render/picture/draw_times.h"
-#include "render/picture/image.h"
+#include "render/picture/layers.h"
 #include "render/prepare/prepared_view.h"
 
 namespace render {
@@ -16,13 +16,11 @@ class ViewRenderer {
     ViewRenderer& operator=(const ViewRenderer&) = delete;
     virtual ~ViewRenderer() = default;
 
-    /// Draws the picture of a view, without its overlay.
-    /// @param image  an image that is no longer needed, whose memory is reused
+    /// Draws layers of a view, the image without its overlay.
+    /// @param layers  of a picture that is no longer needed, whose memory is reused
     /// @param times  the times of the stages are added to it
-    virtual Image draw(const PreparedView& view, Image image, DrawTimes& times) = 0;
-
-    /// The point of a surface that each pixel of the picture shows, row by row.
-    virtual std::vector<VisiblePoint> visiblePoints(const PreparedView& view) = 0;
+    /// @throws std::logic_error  for a layer that the renderer cannot draw
+    virtual void draw(const PreparedView& view, const LayerSelection& wanted, Layers& layers, DrawTimes& times) = 0;
 };
 
 }  // namespace render
