@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "render/mesh/isosurface.h"
+#include "render/output/exr.h"
 #include "tools/commands/commands.h"
 #include "tools/system/text.h"
 
@@ -15,8 +16,10 @@ std::string versionText() {
     constexpr const char* kOpenGl = "without OpenGL";
 #endif
     const std::string openVdb = render::openVdbVersion();
-    return fmt::format("globular " GLOBULAR_VERSION "\n{}, {}", kOpenGl,
-                       openVdb.empty() ? "without OpenVDB" : "with OpenVDB " + openVdb);
+    const std::string openExr = render::openExrVersion();
+    return fmt::format("globular " GLOBULAR_VERSION "\n{}, {}, {}", kOpenGl,
+                       openVdb.empty() ? "without OpenVDB" : "with OpenVDB " + openVdb,
+                       openExr.empty() ? "without OpenEXR" : "with OpenEXR " + openExr);
 }
 
 std::string licenses() {

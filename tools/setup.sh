@@ -4,13 +4,13 @@
 # Usage: setup.sh [--tests] [PACKAGE...]; --tests adds what the tests need besides; further packages are installed as well.
 set -euo pipefail
 
-# OpenVDB makes the meshes of `globular mesh`, and its headers include Boost's. The program can be built without, but
-# the package and CI are to have what the documents describe.
+# OpenVDB makes the meshes of `globular mesh`, and its headers include Boost's; OpenEXR writes the files of `globular render
+# --format exr`. The program can be built without, but the package and CI are to have what the documents describe.
 packages=(
     cmake ninja-build g++ pkg-config
     libtbb-dev libhwy-dev libeigen3-dev libglm-dev libstb-dev libisal-dev libfmt-dev libcli11-dev nlohmann-json3-dev
     libtomlplusplus-dev fonts-dejavu-core
-    libopenvdb-dev libboost-dev
+    libopenvdb-dev libboost-dev libopenexr-dev
     libosmesa6-dev libegl-dev libgl-dev libegl1 libgl1-mesa-dri
     ffmpeg gnuplot-nox
 )
@@ -18,9 +18,9 @@ if [ "${1:-}" = --tests ]; then
     shift
     # clang has the sanitizers and the fuzzer; llvm the symbolizer that puts names into their reports; chromium opens the
     # report of `globular compare`; python3-jsonschema checks the scenes against `globular schema --json-schema`; meshio, VTK,
-    # LAMMPS and python3-openvdb read particle files, fields and meshes back, and the first three write some to be read; Slurm (with
-    # munge), GNU parallel and python3-yaml run the jobs of examples/.
+    # LAMMPS and python3-openvdb read particle files, fields and meshes back, and the first three write some to be read; oiiotool
+    # reads OpenEXR files back; Slurm (with munge), GNU parallel and python3-yaml run the jobs of examples/.
     packages+=(catch2 clang libclang-rt-dev llvm chromium python3-jsonschema python3-meshio python3-vtk9 lammps
-        python3-openvdb slurm-wlm munge parallel python3-yaml)
+        python3-openvdb openimageio-tools slurm-wlm munge parallel python3-yaml)
 fi
 exec "$(dirname "$0")/install_packages.sh" "${packages[@]}" "$@"

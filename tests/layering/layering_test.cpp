@@ -141,6 +141,14 @@ std::string openGlVerdict(const Include& include) {
 /// The files that may include OpenVDB, which may be missing: one source of the renderer, and what reads its files back.
 const std::set<std::string> kWithOpenVdb = {"render/mesh/isosurface_openvdb.cpp", "tests/render/mesh_vdb_test.cpp"};
 
+/// The file that may include OpenEXR, which may be missing.
+constexpr const char* kWithOpenExr = "render/output/exr_openexr.cpp";
+
+/// Whether a target is a header of OpenEXR, which have no folder.
+bool isOpenExrs(const std::string& target) {
+    return target.starts_with("Imf") || target.starts_with("OpenEXR") || target == "half.h";
+}
+
 /// Why an include is wrong; empty if it is not.
 std::string verdict(const Include& include) {
     const std::string target = include.target.substr(0, include.target.find('/'));
@@ -152,6 +160,8 @@ std::string verdict(const Include& include) {
     if (const std::string needsOpenGl = openGlVerdict(include); !needsOpenGl.empty()) return needsOpenGl;
     if (target == "openvdb" && kWithOpenVdb.count(include.file) == 0)
         return include.file + " must not include OpenVDB, which may be missing";
+    if (isOpenExrs(include.target) && include.file != kWithOpenExr)
+        return include.file + " must not include OpenEXR, which may be missing";
     const std::string refusal = include.folder + "/ must not include <" + include.target + ">";
     if (const auto libraries = kLibraries.find(include.folder); libraries != kLibraries.end()) {
         // Without a slash and with .h: the system's C headers.
@@ -225,6 +235,12 @@ TEST_CASE("OpenVDB outside its file is noticed", "[layering]") {
     CHECK(verdict({"render", "render/mesh/surface_mesh.cpp", 1, "openvdb/openvdb.h"}) != "");
     CHECK(verdict({"tools", "tools/commands/mesh_command.cpp", 1, "openvdb/openvdb.h"}) != "");
     CHECK(verdict({"render", "render/prepare/skin.cpp", 1, "render/mesh/surface_mesh.h"}) != "");
+}
+
+TEST_CASE("OpenEXR outside its file is noticed", "[layering]") {
+    CHECK(verdict({"render", "render/output/exr_openexr.cpp", 1, "ImfHeader.h"}) == "");
+    CHECK(verdict({"render", "render/output/exr.cpp", 1, "ImfHeader.h"}) != "");
+    CHECK(verdict({"tools", "tools/run/render_loop.cpp", 1, "half.h"}) != "");
 }
 
 TEST_CASE("A wrong arrow is noticed", "[layering]") {
