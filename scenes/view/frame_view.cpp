@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "scenes/model/to_float.h"
@@ -115,6 +116,13 @@ render::View frameView(const Scene& scene, const engine::Simulation& simulation)
     if (scene.look.hasTimeStamp) view.overlay.stamp = timeText(scene, time);
     view.particles = drawnParticles(scene, simulation, origin);
     return view;
+}
+
+double depthRange(const Scene& scene) {
+    double farthest = 0.0;
+    for (const CameraKey& key : scene.camera)
+        farthest = std::max(farthest, std::sqrt(engine::squaredLength(key.placement.target - key.placement.eye)));
+    return 4.0 * farthest;
 }
 
 }  // namespace scenes

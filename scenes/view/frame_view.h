@@ -33,4 +33,8 @@ engine::Vec3 viewOrigin(const Scene& scene, double time);
 std::vector<render::Sphere> drawnParticles(const Scene& scene, const engine::Simulation& simulation,
                                            const engine::Vec3& origin);
 
+/// View depth that depth pictures with a fixed scale should reach, the same for all frames, m: four times the greatest
+/// distance of a [camera] from its target. Chosen: what stands behind the target is seen, and the scale stays fine.
+double depthRange(const Scene& scene);
+
 }  // namespace scenes

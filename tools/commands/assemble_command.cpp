@@ -50,7 +50,7 @@ void requireWhole(const AssembleOptions& options, const JoinedFrames& joined) {
     if (options.printsMissing && !options.run.json && !toDraw.empty()) printText(listText(toDraw) + "\n");
     if (toDraw.empty()) return;
     std::string message;
-    const std::size_t all = joined.manifest.frames.size() + toDraw.size();
+    const std::size_t all = joined.whole.size() + toDraw.size();
     if (!joined.missing.empty())
         message = fmt::format("{} of {} frames of {} are missing: {}", joined.missing.size(), all, options.folder,
                               listText(joined.missing));
@@ -85,10 +85,8 @@ void writeJoined(const fs::path& folder, const JoinedFrames& joined) {
 void writeVideo(const AssembleOptions& options, const JoinedFrames& joined) {
     const auto rate = frameRateIn(joined.manifest.identity.value("fps", Json()));
     if (!rate) throw render::SystemError(fmt::format("the manifests in {} have no frame rate", options.folder));
-    std::vector<int> numbers;
-    for (const auto& [frame, record] : joined.manifest.frames) numbers.push_back(frame);
-    Progress progress(options.folder, static_cast<int>(numbers.size()), options.run.verbosity());
-    makeVideo({options.folder, numbers, *rate, options.video}, progress);
+    Progress progress(options.folder, static_cast<int>(joined.whole.size()), options.run.verbosity());
+    makeVideo({options.folder, joined.whole, *rate, options.video}, progress);
 }
 
 /// The frames that --frames names; nothing without it.
@@ -108,16 +106,21 @@ void assemble(const AssembleOptions& options) {
     const JoinedFrames joined = joinFrames(options.folder, wantedFrames(options));
     requireWhole(options, joined);
     if (options.printsMissing) return;
+    if (!options.video.empty() && !joined.manifest.hasFrames)
+        throw scenes::InputError("-o " + options.video,
+                                 fmt::format("{} has no finished pictures, which a video is made of; draw them with "
+                                             "--format rgb",
+                                             options.folder));
     if (const std::string warning = machineWarning(joined); !warning.empty()) printWarning(warning);
     writeJoined(options.folder, joined);
     if (!options.video.empty()) writeVideo(options, joined);
     printResult(options.run,
                 {{"event", "done"},
                  {"folder", options.folder},
-                 {"frames", joined.manifest.frames.size()},
+                 {"frames", joined.whole.size()},
                  {"chunks", joined.chunks.size()},
                  {"video", options.video.empty() ? Json(nullptr) : Json(options.video)}},
-                fmt::format("{} frames in {} are whole{}{}\n", joined.manifest.frames.size(), options.folder,
+                fmt::format("{} frames in {} are whole{}{}\n", joined.whole.size(), options.folder,
                             joined.chunks.empty() ? "" : fmt::format(", of {} chunks", joined.chunks.size()),
                             options.video.empty() ? "" : ", video " + options.video));
 }

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "tools/run/options.h"
 #include "tools/run/simulation_host.h"
@@ -40,6 +41,22 @@ void addTo(CLI::App& command, FolderOptions& options, const std::string& help);
 void addStrictFlag(CLI::App& command, SceneOptions& options);
 /// Adds the flag --no-error-estimate, which makes `estimatesErrors` false.
 void addErrorFlag(CLI::App& command, bool& estimatesErrors);
+/// Adds the flag --format of a list of formats, whose help names them all. The value that `chosen` has is the default.
+/// @param formats  each with a name and a help
+template <class Formats>
+void addFormats(CLI::App& command, const Formats& formats, std::vector<std::string>& chosen) {
+    std::vector<std::string> names;
+    std::string help = "what to write, one file a frame of each, separated by commas (default: " + chosen.front() + ")";
+    for (const auto& format : formats) {
+        names.emplace_back(format.name);
+        help += "; " + names.back() + ": " + std::string(format.help);
+    }
+    command.add_option("--format", chosen, help)
+        ->type_name("FORMATS")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(CLI::IsMember(names));
+}
 /// What the help of `render` and `simulate` says about error estimates.
 inline constexpr const char* kErrorSampleNotes =
     "With a fixed step the error is estimated at up to 8 frames of a run, unless --no-error-estimate is given. That\n"

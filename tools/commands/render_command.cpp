@@ -36,7 +36,8 @@ struct RenderOptions {
     FolderOptions folder;
     std::string video;
     std::string frames;
-    std::string chunk;   ///< part of the frames, as parseChunk() takes it; empty: all of them
+    std::string chunk;  ///< part of the frames, as parseChunk() takes it; empty: all of them
+    std::vector<std::string> formats = {std::string(render::pictureFormats().front().name)};
     std::string states;  ///< folder of states to draw; empty: the scene is simulated
     bool estimatesErrors = true;
 };
@@ -69,6 +70,22 @@ std::string summaryOf(const RenderOptions& options, const scenes::Scene& scene, 
         run.report.stateHash, troubleLine(scene, run.simulation));
 }
 
+/// The formats that are asked for, each once.
+/// @throws scenes::InputError if OpenGL is to draw one that it cannot
+/// @throws render::SystemError if a library is missing
+std::vector<const render::PictureFormat*> formatsOf(const RenderOptions& options) {
+    std::vector<const render::PictureFormat*> formats;
+    for (const render::PictureFormat& format : render::pictureFormats()) {
+        if (std::ranges::find(options.formats, format.name) == options.formats.end()) continue;
+        render::requireFormat(format);
+        if ((format.layers.color || format.layers.ids) && rendererOf(options.draw).isOpenGl)
+            throw scenes::InputError(fmt::format("--format {}", format.name),
+                                     "OpenGL draws rgb, depth and normal; the other formats are for --renderer cpu");
+        formats.push_back(&format);
+    }
+    return formats;
+}
+
 /// Checks the outputs before anything is done.
 /// @param states  that are drawn; nullptr: none
 void checkOutputs(const RenderOptions& options, const scenes::Scene& scene, const SimulatedStates* states) {
@@ -76,10 +93,13 @@ void checkOutputs(const RenderOptions& options, const scenes::Scene& scene, cons
     if (states != nullptr) std::ranges::copy(states->files(), std::back_inserter(files.inputs));
     if (!options.video.empty()) {
         requireVideoName("--video", options.video);
+        if (std::ranges::find(options.formats, render::pictureFormats().front().name) == options.formats.end())
+            throw scenes::InputError("--video", "a video is made of finished pictures; add rgb to --format");
         files.outputs.push_back({"--video", options.video});
     }
     if (pipesFrames(options)) {
         requirePipedOutput(options.run);
+        if (options.formats.size() > 1) throw scenes::InputError("-o -", "standard output takes one --format");
         if (options.folder.resume || options.folder.overwrite || options.folder.chunk)
             throw scenes::InputError("-o -", "--resume, --overwrite and --chunk are for a folder of frames");
     } else {
@@ -121,6 +141,7 @@ void render(RenderOptions options) {
                   options.video,
                   pipesFrames(options),
                   options.estimatesErrors};
+    job.formats = formatsOf(options);
     if (job.pipesFrames) job.folder.reset();
     const std::optional<SimulatedStates> states = openStates(options.states, scene, job.frames);
     if (states) job.states = &*states;
@@ -150,6 +171,7 @@ void addRenderCommand(CLI::App& program) {
     addStrictFlag(command, options->scene);
     addTo(command, options->folder,
           "folder for frames and run.json, or - for frames as PNGs on standard output (default: out/NAME)");
+    addFormats(command, render::pictureFormats(), options->formats);
     command
         .add_option("--video", options->video,
                     fmt::format("also write a video; the name must end in {}", render::kVideoExtensions))
@@ -167,7 +189,8 @@ void addRenderCommand(CLI::App& program) {
     addTo(command, options->run);
     command.footer(std::string(kErrorSampleNotes) +
                    "Example: globular render liquid -o out/liquid --video out/liquid.mp4\n"
-                   "         globular render liquid --states out/liquid-states --size 1920x1080 -o out/large");
+                   "         globular render liquid --states out/liquid-states --size 1920x1080 -o out/large\n"
+                   "         globular render liquid --format rgba,depth,id -o out/layers");
     command.callback([options] { render(*options); });
 }
 

@@ -133,21 +133,19 @@ FinishedRun simulateFrames(const scenes::Scene& scene, const FrameList& frames, 
     return sequence.take();
 }
 
-/// Adds the flag for the formats, whose help names them all.
-void addFormats(CLI::App& command, std::vector<std::string>& formats) {
-    std::vector<std::string> names;
-    std::string help = "what to write, one file a frame of each, separated by commas (default: ply)";
-    for (const scenes::ParticleFormat& format : scenes::particleFormats()) {
-        names.emplace_back(format.name);
-        help += fmt::format("; {}: {}", format.name, format.help);
-    }
-    names.emplace_back(kFieldNames.format);
-    help += fmt::format("; {}: the metaballs' field as an OpenVDB fog volume (Blender, Houdini)", kFieldNames.format);
-    command.add_option("--format", formats, help)
-        ->type_name("FORMATS")
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->check(CLI::IsMember(names));
+/// A format as --format names it.
+struct NamedFormat {
+    std::string_view name;
+    std::string_view help;
+};
+
+/// What can be written: particles, and the metaballs' field.
+std::vector<NamedFormat> allFormats() {
+    std::vector<NamedFormat> formats;
+    for (const scenes::ParticleFormat& format : scenes::particleFormats())
+        formats.push_back({format.name, format.help});
+    formats.push_back({kFieldNames.format, "the metaballs' field as an OpenVDB fog volume (Blender, Houdini)"});
+    return formats;
 }
 
 void simulate(SimulateOptions options) {
@@ -184,7 +182,7 @@ void addSimulateCommand(CLI::App& program, SimulationHost* host) {
     addTo(command, options->scene);
     addStrictFlag(command, options->scene);
     addTo(command, options->folder, "folder for frames and run.json (default: out/NAME-states)");
-    addFormats(command, options->formats);
+    addFormats(command, allFormats(), options->formats);
     command.add_option("--frames", options->frames, std::string("write only ") + kFrameListHelp)->type_name("FRAMES");
     addErrorFlag(command, options->estimatesErrors);
     addTo(command, options->run);

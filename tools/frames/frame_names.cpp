@@ -60,6 +60,11 @@ bool isManifestName(const fs::path& file) {
     return takeChunkName(rest) ? rest == kChunkManifestExtension : rest == kManifestName;
 }
 
+FrameNames pictureNames(const render::PictureFormat& format) {
+    const bool isDefault = &format == render::pictureFormats().data();
+    return {kPictureNames.prefix, format.extension, isDefault ? std::string_view() : format.name};
+}
+
 FrameNames stateNames(const scenes::ParticleFormat& format) {
     const bool isDefault = &format == scenes::particleFormats().data();
     return {format.prefix, format.extension, isDefault ? std::string_view() : format.name};
@@ -72,8 +77,9 @@ FrameNames meshNames(std::string_view format) {
 }
 
 std::vector<FrameNames> allFrameNames() {
-    std::vector<FrameNames> all = {kPictureNames, kFieldNames};
+    std::vector<FrameNames> all = {kFieldNames};
     all.insert(all.end(), kMeshNames.begin(), kMeshNames.end());
+    for (const render::PictureFormat& format : render::pictureFormats()) all.push_back(pictureNames(format));
     for (const scenes::ParticleFormat& format : scenes::particleFormats()) all.push_back(stateNames(format));
     return all;
 }

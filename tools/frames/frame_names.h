@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "render/picture_formats.h"
 #include "scenes/particles/formats.h"
 #include "tools/frames/chunk.h"
 
@@ -26,6 +27,9 @@ struct FrameNames {
 };
 inline constexpr FrameNames kPictureNames = {"frame-", ".png"};
 inline constexpr FrameNames kStateNames = {"particles-", ".ply"};
+
+/// How pictures in a format are named: those of the default format as kPictureNames.
+FrameNames pictureNames(const render::PictureFormat& format);
 
 /// How particle states in a format are named.
 FrameNames stateNames(const scenes::ParticleFormat& format);

@@ -71,15 +71,60 @@ void addUnlessThere(Json& list, const Json& item) {
     if (std::ranges::find(list, item) == list.end()) list.push_back(item);
 }
 
-/// The record of a frame that fits its file; nothing if the file is not there or damaged.
-std::optional<FrameRecord> fittingRecord(const std::vector<NamedManifest>& manifests, int frame, const fs::path& path) {
-    if (!fs::exists(path)) return std::nullopt;
-    const std::string checksum = checksumOf(readFile(path));
-    for (const NamedManifest& each : manifests) {
-        const auto record = each.manifest.frames.find(frame);
-        if (record != each.manifest.frames.end() && record->second.checksum == checksum) return record->second;
+/// The formats that any of the runs was asked for.
+std::vector<FrameNames> formatsAskedFor(const std::vector<NamedManifest>& manifests) {
+    std::vector<FrameNames> asked;
+    for (const render::PictureFormat& format : render::pictureFormats()) {
+        const FrameNames names = pictureNames(format);
+        const auto has = [&](const NamedManifest& each) { return each.manifest.findFrames(names.format) != nullptr; };
+        if (std::ranges::any_of(manifests, has)) asked.push_back(names);
     }
-    return std::nullopt;
+    return asked;
+}
+
+/// What the manifests record of a frame's file.
+std::vector<FrameRecord> recordsOf(const std::vector<NamedManifest>& manifests, int frame, const FrameNames& names) {
+    std::vector<FrameRecord> records;
+    for (const NamedManifest& each : manifests)
+        if (const auto* frames = each.manifest.findFrames(names.format); frames != nullptr && frames->contains(frame))
+            records.push_back(frames->at(frame));
+    return records;
+}
+
+enum class FileState { whole, missing, damaged };
+
+/// Compares a frame's file with what the manifests record of it. The record that fits goes to the joined manifest.
+FileState joinFile(const std::vector<NamedManifest>& manifests, int frame, const FrameNames& names,
+                   const fs::path& folder, Manifest& joined) {
+    const fs::path path = folder / names.fileName(frame);
+    const std::vector<FrameRecord> records = recordsOf(manifests, frame, names);
+    if (records.empty() || !fs::exists(path)) return FileState::missing;
+    const auto fitting = std::ranges::find(records, checksumOf(readFile(path)), &FrameRecord::checksum);
+    if (fitting == records.end()) return FileState::damaged;
+    joined.framesIn(names.format)[frame] = *fitting;
+    return FileState::whole;
+}
+
+/// Compares all files of a frame with what the manifests record of them.
+void joinFrame(const std::vector<NamedManifest>& manifests, int frame, const std::vector<FrameNames>& formats,
+               const fs::path& folder, JoinedFrames& joined) {
+    FileState state = FileState::whole;
+    for (const FrameNames& names : formats)
+        state = std::max(state, joinFile(manifests, frame, names, folder, joined.manifest));
+    auto& frames = state == FileState::whole     ? joined.whole
+                   : state == FileState::missing ? joined.missing
+                                                 : joined.damaged;
+    frames.push_back(frame);
+}
+
+/// The hash of the particles at the last frame that is whole; empty if there is none.
+std::string lastStateHash(const JoinedFrames& joined) {
+    if (joined.whole.empty()) return "";
+    const int last = joined.whole.back();
+    for (const render::PictureFormat& format : render::pictureFormats())
+        if (const auto* frames = joined.manifest.findFrames(pictureNames(format).format))
+            return frames->at(last).stateHash;
+    return "";
 }
 
 /// Sum of one of the seconds of all reports.
@@ -118,16 +163,10 @@ JoinedFrames joinFrames(const fs::path& folder, const std::optional<FrameList>& 
         for (const Json& machine : each.manifest.chunk->machines) addUnlessThere(joined.machines, machine);
         if (!each.manifest.chunk->report.is_null()) joined.reports.push_back(each.manifest.chunk->report);
     }
-    for (const int frame : frames) {
-        const fs::path path = folder / kPictureNames.fileName(frame);
-        const auto lists = [&](const NamedManifest& each) { return each.manifest.frames.count(frame) == 1; };
-        if (const auto record = fittingRecord(manifests, frame, path))
-            joined.manifest.frames[frame] = *record;
-        else if (fs::exists(path) && std::ranges::any_of(manifests, lists))
-            joined.damaged.push_back(frame);
-        else
-            joined.missing.push_back(frame);
-    }
+    const std::vector<FrameNames> formats = formatsAskedFor(manifests);
+    joined.manifest.hasFrames = false;
+    for (const FrameNames& names : formats) joined.manifest.framesIn(names.format);
+    for (const int frame : frames) joinFrame(manifests, frame, formats, folder, joined);
     joined.manifest.asked = listText({frames.begin(), frames.end()});
     if (!frames.empty()) joined.manifest.planned = {*frames.begin(), *frames.rbegin()};
     return joined;
@@ -147,16 +186,16 @@ std::string machineWarning(const JoinedFrames& joined) {
 
 Json joinedReport(const JoinedFrames& joined) {
     Json json = joined.manifest.identity;
-    for (const char* key : {"source", "drawn_from"})
+    for (const char* key : {"source", "drawn_from", "depth"})
         for (const Json& report : joined.reports)
             if (!json.contains(key) && report.contains(key)) json[key] = report[key];
     json["assembled_from"] = joined.chunks;
     json["machines"] = joined.machines;
-    json["frames"] = joined.manifest.frames.size();
+    json["frames"] = joined.whole.size();
     Json& seconds = json["seconds"] = Json::object();
     for (const char* stage : {"simulating", "reading", "drawing", "encoding", "all"})
         seconds[stage] = secondsOf(joined.reports, stage);
-    json["state_hash"] = joined.manifest.frames.empty() ? "" : joined.manifest.frames.rbegin()->second.stateHash;
+    json["state_hash"] = lastStateHash(joined);
     return json;
 }
 

@@ -17,8 +17,9 @@ struct JoinedFrames {
     /// What the manifest of a run of all frames would have: the frames whose files are there and as recorded, and those
     /// that were asked for.
     Manifest manifest;
-    std::vector<int> missing;         ///< frames that were asked for and have no file, or none that is recorded
-    std::vector<int> damaged;         ///< frames whose file is none of those that are recorded
+    std::vector<int> whole;           ///< frames that were asked for, of which the files of all formats are as recorded
+    std::vector<int> missing;         ///< frames that were asked for and lack a file, or one that is recorded
+    std::vector<int> damaged;         ///< frames of which a file is none of those that are recorded
     std::vector<std::string> chunks;  ///< names of the chunks' manifests, in the order of the chunks
     Json machines = Json::array();    ///< the kinds of machines that have drawn chunks, without repetition
     Json reports = Json::array();     ///< those of the chunks that are complete

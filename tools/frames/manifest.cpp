@@ -125,11 +125,16 @@ std::map<int, FrameRecord>& Manifest::framesIn(std::string_view format) {
     return frames;
 }
 
-bool Manifest::lists(int frame, std::string_view format) const {
+const std::map<int, FrameRecord>* Manifest::findFrames(std::string_view format) const {
+    if (format.empty()) return hasFrames ? &frames : nullptr;
     const auto other = otherFormats.find(format);
-    if (format.empty() ? !hasFrames : other == otherFormats.end()) return false;
-    const auto& written = format.empty() ? frames : other->second;
-    return written.count(frame) == 1 || (planned && planned->first <= frame && frame <= planned->second);
+    return other == otherFormats.end() ? nullptr : &other->second;
+}
+
+bool Manifest::lists(int frame, std::string_view format) const {
+    const auto* written = findFrames(format);
+    return written != nullptr &&
+           (written->count(frame) == 1 || (planned && planned->first <= frame && frame <= planned->second));
 }
 
 bool isManifest(std::span<const std::uint8_t> text) {

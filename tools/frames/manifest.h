@@ -35,12 +35,12 @@ struct ChunkRecord {
 
 struct Manifest {
     Json identity;  ///< JSON object with everything that determines the bytes of the frames
-    /// The frames whose files have been written: pictures, or particle states in the default format.
+    /// The frames whose files have been written in the default format: finished pictures, meshes, or PLY of states.
     std::map<int, FrameRecord> frames;
     /// Whether a run into this folder was asked for such files. If not, it may have files of theirs that are another's.
     bool hasFrames = true;
-    /// The frames whose particle states have been written in other formats, by the name of the format. There is an
-    /// entry for every format that a run into this folder was asked for.
+    /// The frames whose files have been written in other formats, by the name of the format. There is an entry for
+    /// every format that a run into this folder was asked for.
     std::map<std::string, std::map<int, FrameRecord>, std::less<>> otherFormats;
     std::map<int, CheckpointRecord> checkpoints;  ///< checkpoints by the number of their frame
     /// The first and the last frame that a run into this folder was asked for. A run that was killed may have written
@@ -52,8 +52,11 @@ struct Manifest {
     std::optional<ChunkRecord> chunk;  ///< nothing for a run of all frames
 
     /// The frames that have been written in a format, which counts as asked for from now on.
-    /// @param format  its name; empty for the default format and for pictures
+    /// @param format  its name; empty for the default format
     std::map<int, FrameRecord>& framesIn(std::string_view format);
+
+    /// The same; nullptr if no run into this folder was asked for the format.
+    const std::map<int, FrameRecord>* findFrames(std::string_view format) const;
 
     /// Whether the file of this frame and format belongs to the runs of the manifest.
     bool lists(int frame, std::string_view format) const;

@@ -86,15 +86,16 @@ FrameFolder::FrameFolder(const FolderOptions& options, std::vector<FrameNames> n
     // Not the files of other chunks: on some network file systems it cannot be seen that another machine writes them.
     render::removeAbandonedFiles(folder_, [&](const std::string& name) {
         if (!chunk_) return isRunFile(name);
-        const auto frame = kPictureNames.frameOf(name);
-        return frame ? frames.indexOf(*frame).has_value()
-                     : name == manifestName(chunk_) || name.starts_with(checkpointPrefix_);
+        for (const FrameNames& each : names_)
+            if (const auto frame = each.frameOf(name)) return frames.indexOf(*frame).has_value();
+        return name == manifestName(chunk_) || name.starts_with(checkpointPrefix_);
     });
     for (const FrameNames& each : names_) {
         manifest_.framesIn(each.format);
         if (resumes_) keepIntactFrames(each);
     }
-    if (resumes_) keepFramesOfOthers(frames);
+    for (const FrameNames& each : names_)
+        if (resumes_) keepFramesOfOthers(frames, each);
     writeManifest();
 }
 
@@ -210,15 +211,19 @@ bool FrameFolder::isKept(int frame) const {
 
 /// Keeps those of the frames that other chunks have made. A chunk does not take them into its own manifest, which says
 /// what has drawn its frames.
-void FrameFolder::keepFramesOfOthers(const FrameList& frames) {
-    for (const Manifest& other : others_)
+void FrameFolder::keepFramesOfOthers(const FrameList& frames, const FrameNames& names) {
+    for (const Manifest& other : others_) {
+        const auto* records = other.findFrames(names.format);
+        if (records == nullptr) continue;
         for (const int frame : frames.numbers) {
-            const auto record = other.frames.find(frame);
-            if (isKept(frame) || record == other.frames.end() || !fs::exists(pathOf(frame))) continue;
-            if (checksumOf(readFile(pathOf(frame))) != record->second.checksum) continue;
-            kept_[names_.front().format].insert(frame);
-            if (!chunk_) manifest_.frames[frame] = record->second;
+            const auto record = records->find(frame);
+            const fs::path path = folder_ / names.fileName(frame);
+            if (isKept(frame, names) || record == records->end() || !fs::exists(path)) continue;
+            if (checksumOf(readFile(path)) != record->second.checksum) continue;
+            kept_[names.format].insert(frame);
+            if (!chunk_) manifest_.framesIn(names.format)[frame] = record->second;
         }
+    }
 }
 
 fs::path FrameFolder::pathOf(int frame) const {

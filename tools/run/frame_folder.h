@@ -97,7 +97,7 @@ class FrameFolder {
     void removeFrames();
     void plan(const FolderOptions& options, const FrameList& frames);
     void keepIntactFrames(const FrameNames& names);
-    void keepFramesOfOthers(const FrameList& frames);
+    void keepFramesOfOthers(const FrameList& frames, const FrameNames& names);
     FrameNames checkpointNames() const { return {checkpointPrefix_, kCheckpointExtension}; }
     void writeManifest();
     void writeIndex() const;

@@ -38,11 +38,43 @@ constexpr std::size_t kTokens = 4;
 /// A frame on its way through the stages.
 struct FrameInFlight {
     SequencedFrame frame;
-    std::optional<render::View> view;    ///< view to draw; empty once it is drawn, and for frames that are not drawn
-    bool isDropped = false;              ///< whether the run stopped or failed before the frame was drawn
-    std::optional<render::Image> image;  ///< the drawn picture
-    render::Image oldImage;              ///< the picture of an earlier frame, whose memory the next one reuses
+    render::LayerSelection wanted;     ///< what is drawn of the frame
+    std::optional<render::View> view;  ///< view to draw; empty once it is drawn, and for frames that are not drawn
+    bool isDropped = false;            ///< whether the run stopped or failed before the frame was drawn
+    render::Layers layers;             ///< what was drawn, and what earlier frames have left, whose memory is reused
 };
+
+using Formats = std::vector<const render::PictureFormat*>;
+
+std::vector<FrameNames> namesOf(const Formats& formats) {
+    std::vector<FrameNames> names;
+    for (const render::PictureFormat* format : formats) names.push_back(pictureNames(*format));
+    return names;
+}
+
+/// The layers that files of some formats are made of.
+render::LayerSelection layersOf(const Formats& formats) {
+    render::LayerSelection all;
+    for (const render::PictureFormat* format : formats) {
+        all.image |= format->layers.image;
+        all.color |= format->layers.color;
+        all.points |= format->layers.points;
+        all.ids |= format->layers.ids;
+    }
+    return all;
+}
+
+render::PictureScale scaleOf(const scenes::Scene& scene) {
+    return {scene.size, scenes::depthRange(scene) / render::kNoDepth};
+}
+
+/// What run.json says of depth pictures; null if there are none.
+Json depthJson(const RenderJob& job) {
+    for (const render::PictureFormat* format : job.formats)
+        if (format->name == "depth")
+            return {{"meters_per_step", scaleOf(*job.scene).depthStep}, {"nothing", render::kNoDepth}};
+    return nullptr;
+}
 
 /// Everything that determines the bytes of the frames of a run.
 Json identityOf(const RenderJob& job, const RendererRecord& renderer) {
@@ -65,6 +97,7 @@ class RenderRun {
           frames_(openSource(job, folder_.get(), progress_)) {
         report().threads = job.threads;
         report().renderer = opened_.record;
+        report().depth = depthJson(job);
         if (job.videoPath.empty()) return;
         render::VideoOptions options = videoOptions(job);
         options.mustStop = [this] { return frames_->mustStop(); };
@@ -89,8 +122,7 @@ class RenderRun {
             render::requireEncoder(videoOptions(job));
             const render::AtomicFile canBeCreated(job.videoPath);
         }
-        return std::make_unique<FrameFolder>(*job.folder, std::vector{kPictureNames}, job.frames,
-                                             identityOf(job, renderer));
+        return std::make_unique<FrameFolder>(*job.folder, namesOf(job.formats), job.frames, identityOf(job, renderer));
     }
 
     static render::VideoOptions videoOptions(const RenderJob& job) {
@@ -147,12 +179,22 @@ class RenderRun {
         if (!frame) return nullptr;
         // The stages are in order, so the frame that used this slot before has left the pipeline.
         FrameInFlight& flight = flights_[startedCount_++ % kTokens];
-        if (flight.image) flight.oldImage = std::move(*flight.image);
         flight.frame = std::move(*frame);
-        flight.image.reset();
-        if (flight.frame.isWanted && !flight.frame.isKept)
-            flight.view = scenes::frameView(*job_.scene, frames_->simulation());
+        flight.wanted = layersOf(formatsToMake(flight.frame));
+        if (!flight.wanted.any()) return &flight;
+        flight.view = scenes::frameView(*job_.scene, frames_->simulation());
+        if (flight.wanted.ids) flight.view->particleIds = frames_->simulation().particles.id;
         return &flight;
+    }
+
+    /// The formats whose files of a frame have to be made.
+    Formats formatsToMake(const SequencedFrame& frame) const {
+        if (!frame.isWanted || frame.isKept) return {};
+        Formats formats = job_.formats;
+        if (folder_)
+            std::erase_if(formats,
+                          [&](const auto* each) { return folder_->isKept(frame.number, pictureNames(*each)); });
+        return formats;
     }
 
     void draw(FrameInFlight& flight) {
@@ -167,8 +209,7 @@ class RenderRun {
         const Progress::Work work(progress_, fmt::format("drawing frame {}", flight.frame.number));
         // Drawing is isolated, so that a thread that waits for others in it does not take up the simulation of another
         // frame while it holds the OpenGL context.
-        tbb::this_task_arena::isolate(
-            [&] { flight.image = opened_.renderer->draw(*flight.view, std::move(flight.oldImage)); });
+        tbb::this_task_arena::isolate([&] { opened_.renderer->draw(*flight.view, flight.wanted, flight.layers); });
         flight.view.reset();
     }
 
@@ -176,12 +217,16 @@ class RenderRun {
         if (flight.isDropped || hasFailed_) return;
         const Stopwatch watch(report().seconds.encoding);
         const SequencedFrame& frame = flight.frame;
-        std::vector<std::uint8_t> png;
-        if (flight.image && (folder_ || job_.pipesFrames)) png = render::encodePng(*flight.image);
-        if (folder_) frames_->store(frame, png);
+        for (const render::PictureFormat* format : formatsToMake(frame)) {
+            if (!folder_ && !job_.pipesFrames) continue;
+            const std::vector<std::uint8_t> bytes = format->encode(scaleOf(*job_.scene), flight.layers);
+            if (folder_) folder_->write(frame.number, pictureNames(*format), bytes, frame.stateHash);
+            if (job_.pipesFrames) writeStandardOutput(bytes);
+        }
+        frames_->storeCheckpoint(frame);
         if (!frame.isWanted) return;
-        if (job_.pipesFrames) writeStandardOutput(png);
-        if (video_) unlessStopped([&] { video_->add(flight.image ? *flight.image : readKept(frame.number)); });
+        if (video_)
+            unlessStopped([&] { video_->add(flight.wanted.image ? flight.layers.image : readKept(frame.number)); });
         ++report().frames;
         progress_.frameDone(frame.number, frame.time);
     }

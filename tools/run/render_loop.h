@@ -4,8 +4,10 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "render/picture/view.h"
+#include "render/picture_formats.h"
 #include "scenes/model/scene.h"
 #include "tools/frames/frame_list.h"
 #include "tools/frames/simulated_states.h"
@@ -19,9 +21,11 @@ struct RenderJob : DrawJob {
     FrameList frames;
     std::optional<FolderOptions> folder;      ///< folder of frames and checkpoints; none: no frame becomes a file
     std::string videoPath;                    ///< path of the video, with its kind; empty: no video is made
-    bool pipesFrames = false;                 ///< whether frames go to standard output, one PNG after the other
+    bool pipesFrames = false;                 ///< whether frames go to standard output, one file after the other
     bool estimatesErrors = true;              ///< whether the error of a fixed step is estimated at some of the frames
     const SimulatedStates* states = nullptr;  ///< where the particles of all frames come from; nullptr: a simulation
+    /// What the files of a frame show, in the order of render::pictureFormats(). A video needs the first of these.
+    std::vector<const render::PictureFormat*> formats = {render::pictureFormats().data()};
 };
 
 /// Draws the frames of a job. If the simulation becomes unstable, the run ends after the frames before that. After a

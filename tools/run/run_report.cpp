@@ -99,6 +99,7 @@ Json programJson(const scenes::Scene& scene, const RunReport& report) {
     json["threads"] = report.threads;
     json["instruction_set"] = engine::simdInstructionSet();
     addTo(json, report.renderer);
+    if (!report.depth.is_null()) json["depth"] = report.depth;
     if (!report.mesh.is_null()) json["mesh"] = report.mesh;
     return json;
 }

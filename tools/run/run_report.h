@@ -60,6 +60,7 @@ struct RunReport {
     int frames = 0;                ///< number of frames asked for that were written or kept
     int threads = 1;
     RendererRecord renderer;  ///< what drew; empty if nothing was drawn
+    Json depth;               ///< the scale of depth pictures; null if none were drawn
     Json mesh;                ///< what the meshes are of and what is in them; null if none were made
     std::string stateHash;    ///< hash of the particles at the last frame; empty if there is none
     std::string unstable;     ///< why the simulation became unstable; empty if it did not
