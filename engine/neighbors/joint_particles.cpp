@@ -1,5 +1,5 @@
 // Fetches ghosts from their ranks.
-#include "engine/forces/joint_particles.h"
+#include "engine/neighbors/joint_particles.h"
 
 #include "engine/core/parallel.h"
 
