@@ -12,12 +12,14 @@
 #include <string>
 #include <vector>
 
+#include "engine/error_control/step_cost.h"
 #include "engine/force_law/compression.h"
 #include "engine/neighbors/pair_estimate.h"
 #include "engine/run/strays.h"
 #include "engine/stepping/step_bound.h"
 #include "engine/stepping/take_step.h"
 #include "scenes/build/start_warnings.h"
+#include "studies/scaling/rank_model.h"
 #include "tools/commands/commands.h"
 #include "tools/run/forecast.h"
 #include "tools/run/run_report.h"
@@ -32,6 +34,7 @@ namespace {
 struct CheckOptions {
     RunOptions run;
     SceneOptions scene;
+    int ranks = 0;  ///< of globular-mpi, for which a forecast is wanted; 0 if none is
 };
 
 /// Wall-clock time after which everything that needs more than the scene file is cut off, s. Chosen: with the time to
@@ -164,10 +167,28 @@ std::uint64_t residentBytes() {
     return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
+/// What a step of the scene would take on some ranks of globular-mpi, as far as the model tells.
+Json ranksJson(const scenes::Scene& scene, const Preview& preview, int ranks) {
+    const engine::Particles& particles = preview.simulation.particles;
+    const double steps = engine::forceEvaluationsOf(preview.simulation) + preview.automatic.estimateCost;
+    if (particles.count() == 0 || !(steps > 0.0)) return nullptr;
+    const double cutoff = engine::termsFor(forceFieldOf(scene.setup), particles).cutoff;
+    const auto count = static_cast<double>(particles.count());
+    const double pairs = engine::estimatePairCount(particles.position, particles.radius, cutoff);
+    const studies::StepOnRanks step =
+        studies::stepOnRanks({count, 2.0 * pairs / count, preview.processorSeconds / steps}, ranks);
+    return {{"count", ranks},
+            {"particles", std::llround(step.particles)},
+            {"ghosts", std::llround(step.ghosts)},
+            {"speedup", ranks * step.efficiency},
+            {"efficiency", step.efficiency}};
+}
+
 /// Looks at the start of the scene, simulates its first frames and draws the last of them, and reports one result after
 /// the other.
 /// @param isStrict  whether the scene is not simulated if there are warnings
-void examine(const scenes::Scene& scene, bool isStrict, const Report& report) {
+/// @param ranks     number of ranks for which a forecast is wanted, or 0
+void examine(const scenes::Scene& scene, bool isStrict, int ranks, const Report& report) {
     std::vector<std::string> warnings = scenes::startWarnings(scene);
     report({{"warnings", warnings}});
     if (isStrict && !(warnings.empty() && scene.warnings.empty())) return;
@@ -175,6 +196,7 @@ void examine(const scenes::Scene& scene, bool isStrict, const Report& report) {
     const Preview preview = simulateBeginning(scene);
     const Json predicted = predictionJson(scene, preview);
     report({{"predicted", predicted}});
+    if (ranks > 0) report({{"ranks", ranksJson(scene, preview, ranks)}});
     if (const Json& error = predicted["error"]; !error.is_null() && isErrorMissed(error, scene.setup.error)) {
         warnings.push_back(scenes::missedErrorWarning(scene, error));
         report({{"warnings", warnings}});
@@ -186,12 +208,14 @@ void examine(const scenes::Scene& scene, bool isStrict, const Report& report) {
 
 /// Everything that `check` says. What was not found out when the time was up is missing, and "cut_off" says what took
 /// so long.
-Json checkJson(const scenes::Scene& scene, int threads, bool isStrict) {
+Json checkJson(const scenes::Scene& scene, const CheckOptions& options) {
+    const int threads = threadCount(options.run);
     const std::uint64_t bytesOfProgram = residentBytes();
     // The child comes first, because it must not be started after other threads.
     const Json found = runInChild(kMostSeconds, [&](const Report& report) {
-        withMemoryForParticles(scene.setup.initial.count(),
-                               [&] { onThreads(threads, [&] { examine(scene, isStrict, report); }); });
+        withMemoryForParticles(scene.setup.initial.count(), [&] {
+            onThreads(threads, [&] { examine(scene, options.scene.isStrict, options.ranks, report); });
+        });
     });
     Json json;
     onThreads(threads, [&] { json = sceneJson(scene); });
@@ -266,6 +290,21 @@ std::string predictedText(const Json& json) {
     return text;
 }
 
+/// Whether so many ranks pay, according to what they have of each; empty if nobody asked.
+std::string ranksText(const Json& json) {
+    const Json ranks = json.value("ranks", Json(nullptr));
+    if (ranks.is_null()) return "";
+    constexpr double kWorthwhile = 0.5;  // efficiency from which ranks are said to pay; chosen
+    const double efficiency = ranks["efficiency"].get<double>();
+    return fmt::format(
+        "ranks      {}: {} particles and {} ghosts each; steps {:.3g} times as fast as on one thread: {}\n",
+        ranks["count"].get<int>(), ranks["particles"].get<std::int64_t>(), ranks["ghosts"].get<std::int64_t>(),
+        ranks["speedup"].get<double>(),
+        efficiency >= kWorthwhile
+            ? fmt::format("{:.0f} % of each is used", 100.0 * efficiency)
+            : fmt::format("only {:.0f} % of each is used, fewer ranks or threads pay better", 100.0 * efficiency));
+}
+
 /// A line for each body that gravity compresses, up to as many as one reads.
 std::string bodiesText(const Json& bodies) {
     constexpr std::size_t kMostLines = 12;  // chosen
@@ -309,6 +348,7 @@ std::string checkText(const Json& json) {
     text += bodiesText(json["bodies"]);
     text += fmt::format("obstacles  {}\n", json["obstacles"].get<std::size_t>());
     text += predictedText(json);
+    text += ranksText(json);
     if (const Json& cutOff = json["cut_off"]; !cutOff.is_null())
         text += fmt::format("cut off    {}\n", cutOff.get<std::string>());
     for (const Json& warning : json.value("warnings", Json::array()))
@@ -318,7 +358,7 @@ std::string checkText(const Json& json) {
 
 void check(const CheckOptions& options) {
     const scenes::Scene scene = load(options.scene);
-    const Json json = checkJson(scene, threadCount(options.run), options.scene.isStrict);
+    const Json json = checkJson(scene, options);
     if (options.scene.isStrict) {
         std::vector<std::string> warnings = scene.warnings;
         for (const Json& warning : json.value("warnings", Json::array())) warnings.push_back(warning);
@@ -336,6 +376,11 @@ void addCheckCommand(CLI::App& program) {
     const auto options = std::make_shared<CheckOptions>();
     addTo(command, options->scene);
     addStrictFlag(command, options->scene);
+    command
+        .add_option("--ranks", options->ranks,
+                    "also say what so many ranks of globular-mpi would gain (docs/beyond-one-machine.md)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000000));
     addTo(command, options->run);
     command.footer(
         "Simulates the first frames of the scene. What is not found out within about ten seconds is cut off.\n"
