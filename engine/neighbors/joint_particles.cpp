@@ -44,16 +44,23 @@ void findGhosts(const Ranks& ranks, const Particles& own, const std::vector<Vec3
 
 void fetchGhosts(const Ranks& ranks, const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities,
                  JointParticles& joint) {
-    std::vector<Moving> own(positions.size());
-    inParallel(own.size(), kParticleGrain, [&](std::size_t p) { own[p] = {positions[p], velocities[p]}; });
-    std::vector<Moving> moving;
-    share(ranks, joint.halo, own, moving);
-    joint.particles.position.resize(moving.size());
-    joint.velocities.resize(moving.size());
-    inParallel(moving.size(), kParticleGrain, [&](std::size_t j) {
-        joint.particles.position[j] = moving[j].position;
-        joint.velocities[j] = moving[j].velocity;
+    const Halo& halo = joint.halo;
+    const auto received = swapItems<Moving>(
+        ranks, halo.routes,
+        [&](std::uint32_t p) -> Moving {
+            return {positions[p], velocities[p]};
+        },
+        ghostCounts(halo));
+    joint.velocities.resize(halo.ids.size());
+    inParallel(halo.jointOf.size(), kParticleGrain, [&](std::size_t p) {
+        joint.particles.position[halo.jointOf[p]] = positions[p];
+        joint.velocities[halo.jointOf[p]] = velocities[p];
     });
+    for (std::size_t k = 0; k < halo.routes.size(); ++k)
+        for (std::size_t g = 0; g < received[k].size(); ++g) {
+            joint.particles.position[halo.routes[k].ghosts[g]] = received[k][g].position;
+            joint.velocities[halo.routes[k].ghosts[g]] = received[k][g].velocity;
+        }
 }
 
 }  // namespace engine

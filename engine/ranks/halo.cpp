@@ -49,10 +49,17 @@ std::vector<std::vector<std::uint32_t>> swapIds(const Ranks& ranks, std::span<co
     std::vector<std::size_t> counts;
     for (const Halo::Route& route : routes)
         counts.push_back(static_cast<std::size_t>(numbers[static_cast<std::size_t>(route.rank)]));
-    return swapItems<std::uint32_t>(ranks, routes, ids, counts);
+    return swapItems<std::uint32_t>(
+        ranks, routes, [&](std::uint32_t p) { return ids[p]; }, counts);
 }
 
 }  // namespace
+
+std::vector<std::size_t> ghostCounts(const Halo& halo) {
+    std::vector<std::size_t> counts;
+    for (const Halo::Route& route : halo.routes) counts.push_back(route.ghosts.size());
+    return counts;
+}
 
 Halo findHalo(const Ranks& ranks, const std::vector<Vec3>& positions, std::span<const std::uint32_t> ids,
               double reach) {

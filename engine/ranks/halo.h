@@ -36,18 +36,22 @@ struct Halo {
 /// @param reach      ghosts are at least the particles within this distance (m) of any particle of the rank
 Halo findHalo(const Ranks& ranks, const std::vector<Vec3>& positions, std::span<const std::uint32_t> ids, double reach);
 
+/// Numbers of ghosts that come along each route.
+std::vector<std::size_t> ghostCounts(const Halo& halo);
+
 /// Sends an item of each particle that other ranks need, along the routes, and returns those received from each route.
-/// @param own     one item of each own particle; items may be copied as bytes
+/// @param itemOf  itemOf(index) returns the item of an own particle; items are copied as bytes
 /// @param counts  numbers of items to receive
-template <class Item, class Items>
-std::vector<std::vector<Item>> swapItems(const Ranks& ranks, const std::vector<Halo::Route>& routes, const Items& own,
-                                         const std::vector<std::size_t>& counts) {
+template <class Item, class ItemOf>
+std::vector<std::vector<Item>> swapItems(const Ranks& ranks, const std::vector<Halo::Route>& routes,
+                                         const ItemOf& itemOf, const std::vector<std::size_t>& counts) {
     std::vector<std::vector<Item>> toSend(routes.size());
     std::vector<std::vector<Item>> received(routes.size());
     std::vector<Message<const std::byte>> sends;
     std::vector<Message<std::byte>> receives;
     for (std::size_t k = 0; k < routes.size(); ++k) {
-        for (const std::uint32_t p : routes[k].own) toSend[k].push_back(own[p]);
+        toSend[k].reserve(routes[k].own.size());
+        for (const std::uint32_t p : routes[k].own) toSend[k].push_back(itemOf(p));
         received[k].resize(counts[k]);
         if (!toSend[k].empty()) sends.push_back({routes[k].rank, std::as_bytes(std::span(toSend[k]))});
         if (!received[k].empty()) receives.push_back({routes[k].rank, std::as_writable_bytes(std::span(received[k]))});
@@ -57,13 +61,12 @@ std::vector<std::vector<Item>> swapItems(const Ranks& ranks, const std::vector<H
 }
 
 /// Brings what the own particles have, and what other ranks have of the ghosts, into joint order.
-/// @param own    one item of each own particle; items may be copied as bytes
+/// @param own    one item of each own particle; items are copied as bytes
 /// @param joint  receives one item of each own particle and ghost
 template <class Item>
 void share(const Ranks& ranks, const Halo& halo, const std::vector<Item>& own, std::vector<Item>& joint) {
-    std::vector<std::size_t> counts;
-    for (const Halo::Route& route : halo.routes) counts.push_back(route.ghosts.size());
-    const auto received = swapItems<Item>(ranks, halo.routes, own, counts);
+    const auto received = swapItems<Item>(
+        ranks, halo.routes, [&](std::uint32_t p) { return own[p]; }, ghostCounts(halo));
     joint.resize(halo.ids.size());
     for (std::size_t p = 0; p < halo.jointOf.size(); ++p) joint[halo.jointOf[p]] = own[p];
     for (std::size_t k = 0; k < halo.routes.size(); ++k)

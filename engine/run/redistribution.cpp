@@ -12,86 +12,106 @@
 namespace engine {
 namespace {
 
-/// A particle on its way to another rank.
-struct Traveler {
+/// What can be seen of a particle.
+struct Appearance {
     Vec3 position;
     Vec3 velocity;
-    Vec3 force = Vec3::Zero();
-    Vec3 meanAcceleration = Vec3::Zero();
-    Vec3 builtAt = Vec3::Zero();
     double radius = 0.0;
     double mass = 0.0;
     double birthTime = 0.0;
     std::uint32_t material = 0;
     std::uint32_t id = 0;
+};
+
+Appearance appearanceOf(const Simulation& simulation, std::size_t p) {
+    const Particles& particles = simulation.particles;
+    return {particles.position[p],  particles.velocity[p], particles.radius[p], particles.mass[p],
+            particles.birthTime[p], particles.material[p], particles.id[p]};
+}
+
+/// A particle with all that later steps depend on, on its way to another rank.
+struct Traveler : Appearance {
+    Vec3 force = Vec3::Zero();
+    Vec3 meanAcceleration = Vec3::Zero();
+    Vec3 builtAt = Vec3::Zero();
     bool hasForce = false;
     bool hasMeanAcceleration = false;
     bool isListed = false;  ///< whether it was there when the neighbor list was built
 };
 
 Traveler travelerOf(const Simulation& simulation, std::size_t p) {
-    const Particles& particles = simulation.particles;
     const StepCache& cache = *simulation.cache;
-    const std::vector<Vec3>& builtAt = cache.evaluator.list().builtAt;
-    Traveler traveler;
-    traveler.position = particles.position[p];
-    traveler.velocity = particles.velocity[p];
-    traveler.radius = particles.radius[p];
-    traveler.mass = particles.mass[p];
-    traveler.birthTime = particles.birthTime[p];
-    traveler.material = particles.material[p];
-    traveler.id = particles.id[p];
+    Traveler traveler{appearanceOf(simulation, p)};
     const auto take = [&](const std::vector<Vec3>& from, Vec3& to, bool& has) {
         has = p < from.size();
         if (has) to = from[p];
     };
     take(cache.forces, traveler.force, traveler.hasForce);
     take(cache.meanAccelerations, traveler.meanAcceleration, traveler.hasMeanAcceleration);
-    take(builtAt, traveler.builtAt, traveler.isListed);
+    take(cache.evaluator.list().builtAt, traveler.builtAt, traveler.isListed);
     return traveler;
+}
+
+/// Sends what recordOf(simulation, index) returns of each particle to the rank that rankOf(position) names.
+template <class Record, class RankOf>
+std::vector<Record> sendParticles(const Ranks& ranks, const Simulation& simulation,
+                                  Record (*recordOf)(const Simulation&, std::size_t), const RankOf& rankOf) {
+    std::vector<std::vector<Record>> toRanks(static_cast<std::size_t>(ranks.count()));
+    for (std::size_t p = 0; p < simulation.particles.count(); ++p)
+        toRanks[static_cast<std::size_t>(rankOf(simulation.particles.position[p]))].push_back(recordOf(simulation, p));
+    return exchangeItems(ranks, toRanks);
+}
+
+/// Calls visit(record) for all records in ascending order of their ids.
+template <class Record, class Visit>
+void inOrder(const std::vector<Record>& records, const Visit& visit) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> order;  // ids and indices, which are moved faster than records
+    order.reserve(records.size());
+    for (std::uint32_t k = 0; k < records.size(); ++k) order.emplace_back(records[k].id, k);
+    std::ranges::sort(order);
+    for (const auto& [id, k] : order) visit(records[k]);
+}
+
+void clear(Particles& particles, std::size_t room) {
+    forEachArray(particles, [&](auto& array) {
+        array.clear();
+        array.reserve(room);
+    });
+}
+
+void add(const Appearance& particle, Particles& particles) {
+    particles.position.push_back(particle.position);
+    particles.velocity.push_back(particle.velocity);
+    particles.radius.push_back(particle.radius);
+    particles.mass.push_back(particle.mass);
+    particles.birthTime.push_back(particle.birthTime);
+    particles.material.push_back(particle.material);
+    particles.id.push_back(particle.id);
 }
 
 /// Replaces the particles of a simulation, with what belongs to them; returns where they were when the neighbor list
 /// was built.
-std::vector<Vec3> replaceParticles(Simulation& simulation, std::vector<Traveler>& travelers) {
-    std::ranges::sort(travelers, {}, &Traveler::id);
-    Particles& particles = simulation.particles;
+std::vector<Vec3> replaceParticles(Simulation& simulation, const std::vector<Traveler>& travelers) {
     StepCache& cache = *simulation.cache;
-    forEachArray(particles, [](auto& array) { array.clear(); });
+    clear(simulation.particles, travelers.size());
     cache.forces.clear();
     cache.meanAccelerations.clear();
     cache.clearance.clear();
     cache.cachedNeighbors.clear();
     std::vector<Vec3> builtAt;
-    for (const Traveler& traveler : travelers) {
-        particles.position.push_back(traveler.position);
-        particles.velocity.push_back(traveler.velocity);
-        particles.radius.push_back(traveler.radius);
-        particles.mass.push_back(traveler.mass);
-        particles.birthTime.push_back(traveler.birthTime);
-        particles.material.push_back(traveler.material);
-        particles.id.push_back(traveler.id);
+    inOrder(travelers, [&](const Traveler& traveler) {
+        add(traveler, simulation.particles);
         // The newest particles may have none of these.
         if (traveler.hasForce) cache.forces.push_back(traveler.force);
         if (traveler.hasMeanAcceleration) cache.meanAccelerations.push_back(traveler.meanAcceleration);
         if (traveler.isListed) builtAt.push_back(traveler.builtAt);
-    }
+    });
     return builtAt;
-}
-
-/// Sends the particles of a simulation to the ranks that rankOf(position) names.
-template <class RankOf>
-std::vector<Traveler> sendParticles(const Ranks& ranks, const Simulation& simulation, const RankOf& rankOf) {
-    std::vector<std::vector<Traveler>> toRanks(static_cast<std::size_t>(ranks.count()));
-    for (std::size_t p = 0; p < simulation.particles.count(); ++p)
-        toRanks[static_cast<std::size_t>(rankOf(simulation.particles.position[p]))].push_back(
-            travelerOf(simulation, p));
-    return exchangeItems(ranks, toRanks);
 }
 
 /// Continues with other particles.
 /// @param cutoff  with the skin, both in meters, of the neighbor list
-void settle(Simulation& simulation, std::vector<Traveler>& travelers, double cutoff, double skin) {
+void settle(Simulation& simulation, const std::vector<Traveler>& travelers, double cutoff, double skin) {
     const std::vector<Vec3> builtAt = replaceParticles(simulation, travelers);
     renewGroups(simulation);
     ForceEvaluator& evaluator = simulation.cache->evaluator;
@@ -105,18 +125,20 @@ struct TwinParticle {
     std::uint32_t id = 0;
 };
 
-/// Brings the particles at the end of a twin together on rank 0.
-void gatherTwin(const Ranks& ranks, const TwinRun& twin, TwinRun& whole) {
+/// A twin with the particles of all ranks on rank 0, and none on the others.
+TwinRun gatherTwin(const Ranks& ranks, const TwinRun& twin) {
     std::vector<std::vector<TwinParticle>> toRanks(static_cast<std::size_t>(ranks.count()));
     for (std::size_t t = 0; t < twin.id.size(); ++t) toRanks[0].push_back({twin.position[t], twin.id[t]});
     std::vector<TwinParticle> particles = exchangeItems(ranks, toRanks);
     std::ranges::sort(particles, {}, &TwinParticle::id);
+    TwinRun whole = twin;
     whole.position.clear();
     whole.id.clear();
     for (const TwinParticle& particle : particles) {
         whole.position.push_back(particle.position);
         whole.id.push_back(particle.id);
     }
+    return whole;
 }
 
 /// What rank 0 gives, on all ranks.
@@ -141,37 +163,44 @@ void copyCommon(const Simulation& simulation, Simulation& whole) {
     whole.particles.nextId = simulation.particles.nextId;
 }
 
-/// gather(), which returns the positions for which the neighbor list was built.
-std::vector<Vec3> gatherAll(const Simulation& simulation, Simulation& whole) {
-    const Ranks& ranks = *simulation.ranks;
-    std::vector<Traveler> travelers = sendParticles(ranks, simulation, [](const Vec3&) { return 0; });
-    const std::uint64_t held = sumOfAll(ranks, simulation.steps.held);
-    if (ranks.own() != 0) return {};
-    copyCommon(simulation, whole);
-    whole.steps.held = held;
-    whole.cache->invalidate();
-    return replaceParticles(whole, travelers);
+int rankZero(const Vec3& /*position*/) {
+    return 0;
 }
 
 }  // namespace
 
 void redistribute(Simulation& simulation) {
     const Ranks& ranks = *simulation.ranks;
-    auto travelers = sendParticles(ranks, simulation, [&](const Vec3& position) { return ranks.ownerOf(position); });
+    const auto ownerOf = [&](const Vec3& position) { return ranks.ownerOf(position); };
+    const auto travelers = sendParticles(ranks, simulation, travelerOf, ownerOf);
     const NeighborList& list = simulation.cache->evaluator.list();
     settle(simulation, travelers, list.cutoff, list.skin);
 }
 
 void gather(const Simulation& simulation, Simulation& whole) {
-    gatherAll(simulation, whole);
+    const Ranks& ranks = *simulation.ranks;
+    const auto appearances = sendParticles(ranks, simulation, appearanceOf, rankZero);
+    const std::uint64_t held = sumOfAll(ranks, simulation.steps.held);
+    if (ranks.own() != 0) return;
+    copyCommon(simulation, whole);
+    whole.steps.held = held;
+    whole.cache->invalidate();
+    clear(whole.particles, appearances.size());
+    inOrder(appearances, [&](const Appearance& particle) { add(particle, whole.particles); });
 }
 
 std::vector<std::uint8_t> gatherCheckpoint(const Simulation& simulation) {
+    const Ranks& ranks = *simulation.ranks;
+    const auto travelers = sendParticles(ranks, simulation, travelerOf, rankZero);
+    const std::uint64_t held = sumOfAll(ranks, simulation.steps.held);
+    TwinRun twin = gatherTwin(ranks, simulation.automatic.twin);
+    if (ranks.own() != 0) return {};
     Simulation whole;
+    copyCommon(simulation, whole);
     whole.setup.materials = simulation.setup.materials;
-    const std::vector<Vec3> builtAt = gatherAll(simulation, whole);
-    gatherTwin(*simulation.ranks, simulation.automatic.twin, whole.automatic.twin);
-    if (simulation.ranks->own() != 0) return {};
+    whole.automatic.twin = std::move(twin);
+    whole.steps.held = held;
+    const std::vector<Vec3> builtAt = replaceParticles(whole, travelers);
     const StepCache& cache = *simulation.cache;
     whole.cache->forcesCurrent = cache.forcesCurrent;
     whole.cache->energy = cache.energy;
@@ -193,7 +222,8 @@ void divide(Simulation& simulation, const Ranks& ranks) {
     std::array reach = {list.cutoff, list.skin};
     if (ranks.own() != 0) reach = {0.0, 0.0};
     ranks.maximize(reach);
-    auto travelers = sendParticles(ranks, simulation, [&](const Vec3& position) { return ranks.ownerOf(position); });
+    const auto ownerOf = [&](const Vec3& position) { return ranks.ownerOf(position); };
+    const auto travelers = sendParticles(ranks, simulation, travelerOf, ownerOf);
     simulation.ranks = &ranks;
     const Setup& setup = simulation.setup;
     simulation.cache->evaluator = ForceEvaluator(forceFieldOf(setup), setup.forces, setup.precision, ranks);
