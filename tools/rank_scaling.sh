@@ -12,7 +12,7 @@ ranks=("${@:3}")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# block.toml: a block of liquid in a tank, as long as the first argument says, in units of about 33,000 particles.
+# block.toml: a block of liquid in a tank, as long as the first argument says, in units of about 47,000 particles.
 scene() {
     cat > "$work/block-$1.toml" <<TOML
 title = "A block of liquid"

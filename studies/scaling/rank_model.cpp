@@ -11,7 +11,7 @@ constexpr double kReach = 1.1;
 
 /// Cost of a particle on one of many ranks, and of a ghost, over that of a particle in one process: copies and
 /// messages, and for ghosts the search of neighbors. Measured: docs/beyond-one-machine.md.
-constexpr double kCostOfOwn = 1.1;
+constexpr double kCostOfOwn = 1.25;
 constexpr double kCostOfGhost = 0.35;
 
 /// Operations in a step for which all ranks wait for each other, and messages of a rank to its neighbors.
