@@ -81,6 +81,22 @@ void advanceOn(MpiRanks& ranks, const scenes::Scene& scene, Simulation& simulati
     rebalance(ranks, simulation, isBalanced);
 }
 
+/// Brings the particles together on rank 0 after some work, also where all ranks have thrown: the report of a run that
+/// became unstable, or was stopped, counts its steps up to there.
+template <class Work>
+void thenGather(const Simulation& simulation, Simulation& whole, const Work& work) {
+    try {
+        work();
+    } catch (const engine::InstabilityError&) {
+        engine::gather(simulation, whole);
+        throw;
+    } catch (const engine::Stopped&) {
+        engine::gather(simulation, whole);
+        throw;
+    }
+    engine::gather(simulation, whole);
+}
+
 Json encode(const engine::ErrorSamples& samples) {
     return {
         {"count", samples.count}, {"sum", samples.sum}, {"largest", samples.largest}, {"cost", samples.evaluationCost}};
@@ -146,8 +162,8 @@ void RankHost::advanceToFrame(const scenes::Scene& scene, Simulation& whole, int
         return false;
     };
     together(ranks_, [&] {
-        advanceOn(ranks_, scene, simulation_, frame, options_.isBalanced, mustStop);
-        engine::gather(simulation_, whole);
+        thenGather(simulation_, whole,
+                   [&] { advanceOn(ranks_, scene, simulation_, frame, options_.isBalanced, mustStop); });
     });
 }
 
@@ -183,8 +199,9 @@ void serve(MpiRanks& ranks) {
          }},
         {"advance",
          [&](const Json& json) {
-             advanceOn(ranks, scene, simulation, json.at("frame"), json.at("balance"), nullptr);
-             engine::gather(simulation, simulation);
+             thenGather(simulation, simulation, [&] {
+                 advanceOn(ranks, scene, simulation, json.at("frame"), json.at("balance"), nullptr);
+             });
          }},
         {"sample",
          [&](const Json& json) {
