@@ -27,6 +27,9 @@ class MpiRanks : public engine::Ranks {
     /// Divides space anew for particles at these positions (m), of which each rank gives some.
     void divide(const std::vector<engine::Vec3>& positions) { partition_.divide(positions); }
 
+    /// Whether space has been divided; until then all of it belongs to rank 0.
+    bool isDivided() const { return partition_.isDivided(); }
+
     /// Sends a text from rank 0 to all; returns it.
     std::string broadcast(std::string text) const;
 

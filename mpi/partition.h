@@ -22,6 +22,9 @@ class Partition {
     /// @param positions  of some of the particles, each of which is given by one rank, m
     void divide(const std::vector<engine::Vec3>& positions);
 
+    /// Whether divide() has been called.
+    bool isDivided() const { return isDivided_; }
+
     int ownerOf(const engine::Vec3& position) const;
 
  private:

@@ -62,7 +62,7 @@ void rebalance(MpiRanks& ranks, Simulation& simulation, bool isBalanced) {
     const auto all = static_cast<double>(engine::sumOfAll(ranks, positions.size()));
     if (all < static_cast<double>(ranks.count())) return;
     const bool isUneven = most > kUneven * std::max(1.0, all / ranks.count());
-    if (isBalanced && isUneven) ranks.divide(positions);
+    if (!ranks.isDivided() || (isBalanced && isUneven)) ranks.divide(positions);
     const auto astray = static_cast<std::uint64_t>(std::ranges::count_if(
         positions, [&](const engine::Vec3& position) { return ranks.ownerOf(position) != ranks.own(); }));
     if (static_cast<double>(engine::sumOfAll(ranks, astray)) > kAstray * all) engine::redistribute(simulation);
