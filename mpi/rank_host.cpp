@@ -112,6 +112,17 @@ scenes::Scene loadAs(const Json& order) {
     return tools::load({order.at("scene"), order.at("changes"), order.at("limits"), kIsStrict});
 }
 
+/// What an order begins a run of a scene with: how it is computed, and which scene it is.
+Json beginning(const char* what, const scenes::Scene& scene) {
+    return {{"do", what}, {"threads", engine::threadCount()}, {"simulation", scene.simulationHash}};
+}
+
+/// Each rank reads the scene's files itself, and those of another machine may be others.
+void requireSame(const scenes::Scene& scene, const Json& order) {
+    if (order.at("simulation") != scene.simulationHash)
+        throw std::runtime_error("the scene differs from that of rank 0; every process must read the same files");
+}
+
 /// Does what all ranks do at the same time. What fails on one of them ends the run, because the others would wait.
 template <class Work>
 void together(const MpiRanks& ranks, const Work& work) {
@@ -140,13 +151,13 @@ void RankHost::load(const tools::SceneOptions& scene) {
 }
 
 Simulation RankHost::start(const scenes::Scene& scene) {
-    order({{"do", "start"}, {"threads", engine::threadCount()}});
+    order(beginning("start", scene));
     together(ranks_, [&] { simulation_ = startOn(ranks_, scene); });
     return engine::start(scene.setup);
 }
 
-void RankHost::resume(const scenes::Scene& /*scene*/, Simulation& whole) {
-    order({{"do", "resume"}, {"threads", engine::threadCount()}});
+void RankHost::resume(const scenes::Scene& scene, Simulation& whole) {
+    order(beginning("resume", scene));
     simulation_ = whole;
     together(ranks_, [&] { divideOn(ranks_, simulation_); });
 }
@@ -188,11 +199,13 @@ void serve(MpiRanks& ranks) {
         {"load", [&](const Json& json) { scene = loadAs(json); }},
         {"start",
          [&](const Json& json) {
+             requireSame(scene, json);
              threads = json.at("threads");
              simulation = startOn(ranks, scene);
          }},
         {"resume",
          [&](const Json& json) {
+             requireSame(scene, json);
              threads = json.at("threads");
              simulation = engine::start(scene.setup);
              divideOn(ranks, simulation);
