@@ -191,6 +191,12 @@ std::vector<std::uint8_t> RankHost::checkpoint(const Simulation& /*whole*/) {
     return bytes;
 }
 
+engine::Energy RankHost::energy(const scenes::Scene& scene, Simulation& whole) {
+    // The order of its sums is that of the neighbor list, which checkpoints have and the whole simulation has not.
+    Simulation withList = engine::decodeCheckpoint(scene.setup, checkpoint(whole));
+    return engine::energy(withList);
+}
+
 void serve(MpiRanks& ranks) {
     scenes::Scene scene;
     Simulation simulation;

@@ -31,6 +31,7 @@ class RankHost : public tools::SimulationHost {
     void advanceToFrame(const scenes::Scene& scene, engine::Simulation& whole, int frame) override;
     void addSample(engine::ErrorSamples& samples, const engine::Simulation& whole, double frameSeconds,
                    double evaluationsOfFrame) override;
+    engine::Energy energy(const scenes::Scene& scene, engine::Simulation& whole) override;
     std::vector<std::uint8_t> checkpoint(const engine::Simulation& whole) override;
 
  private:

@@ -164,8 +164,8 @@ Json runJson(const scenes::Scene& scene, FinishedRun& run) {
                        {"encoding", report.seconds.encoding},
                        {"all", report.seconds.all}};
     json["error_estimate"] = errorJson(simulation, report.errors);
-    if (report.unstable.empty() && !report.isCutShort) {
-        json["energy"] = energyJson(engine::energy(simulation));
+    if (run.energy) {
+        json["energy"] = energyJson(*run.energy);
         json["linear_momentum"] = vectorJson(engine::linearMomentum(simulation.particles));
         json["angular_momentum"] = vectorJson(engine::angularMomentum(simulation.particles));
     } else if (!report.unstable.empty()) {

@@ -8,6 +8,7 @@
 
 #include "engine/error_control/error_samples.h"
 #include "engine/run/advance.h"
+#include "engine/run/diagnostics.h"
 #include "scenes/model/scene.h"
 #include "tools/frames/simulated_states.h"
 #include "tools/system/json.h"
@@ -72,7 +73,8 @@ struct RunReport {
 struct FinishedRun {
     engine::Simulation simulation;  ///< state at the last frame
     RunReport report;
-    Json json;  ///< the content of run.json; null for a run without a folder
+    std::optional<engine::Energy> energy;  ///< at the last frame of a run that came to its end
+    Json json;                             ///< the content of run.json; null for a run without a folder
 };
 
 /// A frame rate as JSON: a number, or a string if it is a fraction.

@@ -8,6 +8,7 @@
 #include "engine/error_control/error_samples.h"
 #include "engine/run/advance.h"
 #include "engine/run/checkpoint.h"
+#include "engine/run/diagnostics.h"
 #include "scenes/model/scene.h"
 #include "scenes/view/frame_view.h"
 #include "tools/run/options.h"
@@ -40,6 +41,11 @@ class SimulationHost {
     virtual void addSample(engine::ErrorSamples& samples, const engine::Simulation& whole, double frameSeconds,
                            double evaluationsOfFrame) {
         engine::addSample(samples, whole, frameSeconds, evaluationsOfFrame);
+    }
+
+    /// The energy of the whole simulation at a frame.
+    virtual engine::Energy energy(const scenes::Scene& /*scene*/, engine::Simulation& whole) {
+        return engine::energy(whole);
     }
 
     virtual std::vector<std::uint8_t> checkpoint(const engine::Simulation& whole) {
