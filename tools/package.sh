@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Sets the machine up, builds the program, and makes a Debian package of it: build/release/globular_VERSION_ARCHITECTURE.deb.
-# `apt-get install ./globular_*.deb` then installs it with what it needs.
+# Sets the machine up, builds the programs, and makes Debian packages of them: build/release/globular_VERSION_ARCHITECTURE.deb,
+# and beside it globular-mpi_VERSION_ARCHITECTURE.deb, which needs the first one. `apt-get install ./globular_*.deb` then installs
+# globular with what it needs, and `apt-get install ./globular*.deb` both.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
