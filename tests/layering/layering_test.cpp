@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::set<std::string> kFolders = {"engine", "render", "scenes", "studies", "tools", "tests"};
+const std::set<std::string> kFolders = {"engine", "render", "scenes", "studies", "tools", "mpi", "tests"};
 
 /// Which of our folders a folder may include, itself left out.
 const std::map<std::string, std::set<std::string>> kAllowed = {
@@ -23,6 +23,7 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"scenes", {"engine"}},
     {"studies", {"engine", "render", "scenes"}},
     {"tools", {"engine", "render", "scenes", "studies"}},
+    {"mpi", {"engine", "scenes", "tools"}},
     {"tests", {"engine", "render", "scenes", "studies", "tools"}}};
 
 /// The one header of another folder that is allowed by name.
@@ -58,7 +59,8 @@ const std::map<std::string, std::vector<std::string>> kRooms = {
       "studies/oracle", "studies/common"}},
     {"tools",
      {"tools", "tools/commands/study", "tools/commands", "tools/pages", "tools/compare", "tools/mesh", "tools/run",
-      "tools/frames", "tools/system"}}};
+      "tools/frames", "tools/system"}},
+    {"mpi", {"mpi"}}};
 
 /// The layout shows the architecture only as long as a room fits on a screen.
 constexpr std::size_t kMostFilesInRoom = 25;
@@ -149,6 +151,11 @@ bool isOpenExrs(const std::string& target) {
     return target.starts_with("Imf") || target.starts_with("OpenEXR") || target == "half.h";
 }
 
+/// Whether a target is a header of MPI or Zoltan, which only the program globular-mpi is built with.
+bool isOfSeveralProcesses(const std::string& target) {
+    return target == "mpi.h" || target.starts_with("zoltan");
+}
+
 /// Why an include is wrong; empty if it is not.
 std::string verdict(const Include& include) {
     const std::string target = include.target.substr(0, include.target.find('/'));
@@ -162,6 +169,8 @@ std::string verdict(const Include& include) {
         return include.file + " must not include OpenVDB, which may be missing";
     if (isOpenExrs(include.target) && include.file != kWithOpenExr)
         return include.file + " must not include OpenEXR, which may be missing";
+    if (isOfSeveralProcesses(include.target) && include.folder != "mpi")
+        return include.file + " must not include MPI or Zoltan, which may be missing";
     const std::string refusal = include.folder + "/ must not include <" + include.target + ">";
     if (const auto libraries = kLibraries.find(include.folder); libraries != kLibraries.end()) {
         // Without a slash and with .h: the system's C headers.
@@ -241,6 +250,16 @@ TEST_CASE("OpenEXR outside its file is noticed", "[layering]") {
     CHECK(verdict({"render", "render/output/exr_openexr.cpp", 1, "ImfHeader.h"}) == "");
     CHECK(verdict({"render", "render/output/exr.cpp", 1, "ImfHeader.h"}) != "");
     CHECK(verdict({"tools", "tools/run/render_loop.cpp", 1, "half.h"}) != "");
+}
+
+TEST_CASE("MPI outside its folder is noticed", "[layering]") {
+    CHECK(verdict({"mpi", "mpi/x.cpp", 1, "mpi.h"}) == "");
+    CHECK(verdict({"mpi", "mpi/x.cpp", 1, "zoltan.h"}) == "");
+    CHECK(verdict({"engine", "engine/ranks/x.h", 1, "mpi.h"}) != "");
+    CHECK(verdict({"tools", "tools/run/x.cpp", 1, "zoltan_cpp.h"}) != "");
+    CHECK(verdict({"tools", "tools/run/x.cpp", 1, "mpi/rank_host.h"}) != "");
+    CHECK(verdict({"mpi", "mpi/x.cpp", 1, "tools/run/simulation_host.h"}) == "");
+    CHECK(verdict({"mpi", "mpi/x.cpp", 1, "render/picture/view.h"}) != "");
 }
 
 TEST_CASE("A wrong arrow is noticed", "[layering]") {
