@@ -35,9 +35,9 @@ if [ $# -gt 0 ]; then
     exit
 fi
 
-build release globular {engine,golden,memory}_tests
+build release globular globular-mpi {engine,golden,memory}_tests
 # The kill harness sleeps most of the time: beside the next build.
-ctest --preset release --parallel 2 -R '^(engine|golden|memory|kill|hard_cases|slurm|parallel|openjd)_tests$' &
+ctest --preset release --parallel 2 -R '^(engine|golden|memory|kill|hard_cases|slurm|parallel|openjd|mpi)_tests$' &
 build tsan
 wait $!
 # In parallel runs sanitized suites keep to a core each: this one, too, though it is alone. Beside the build, because beside
