@@ -144,10 +144,14 @@ RankHost::~RankHost() {
     order({{"do", "end"}});
 }
 
-void RankHost::load(const tools::SceneOptions& scene) {
-    if (scene.scene == tools::kStandardStream)
+void RankHost::load(const tools::SceneOptions& options, const scenes::Scene& scene) {
+    if (options.scene == tools::kStandardStream)
         throw scenes::InputError("SCENE", "standard input reaches only one of the processes; give a file");
-    order({{"do", "load"}, {"scene", scene.scene}, {"changes", scene.changes}, {"limits", scene.limits}});
+    if (scene.setup.forces == engine::ForceMethod::reference && ranks_.areMany())
+        throw scenes::InputError(scene.sourceName,
+                                 "physics.forces is \"reference\", which visits every pair of particles "
+                                 "in one process; give \"grid\", or run it without MPI");
+    order({{"do", "load"}, {"scene", options.scene}, {"changes", options.changes}, {"limits", options.limits}});
 }
 
 Simulation RankHost::start(const scenes::Scene& scene) {
@@ -218,9 +222,8 @@ void serve(MpiRanks& ranks) {
          }},
         {"advance",
          [&](const Json& json) {
-             thenGather(simulation, simulation, [&] {
-                 advanceOn(ranks, scene, simulation, json.at("frame"), json.at("balance"), nullptr);
-             });
+             thenGather(simulation, simulation,
+                        [&] { advanceOn(ranks, scene, simulation, json.at("frame"), json.at("balance"), nullptr); });
          }},
         {"sample",
          [&](const Json& json) {

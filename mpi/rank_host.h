@@ -25,7 +25,7 @@ class RankHost : public tools::SimulationHost {
 
     DivisionOptions& options() { return options_; }
 
-    void load(const tools::SceneOptions& scene) override;
+    void load(const tools::SceneOptions& options, const scenes::Scene& scene) override;
     engine::Simulation start(const scenes::Scene& scene) override;
     void resume(const scenes::Scene& scene, engine::Simulation& whole) override;
     void advanceToFrame(const scenes::Scene& scene, engine::Simulation& whole, int frame) override;

@@ -191,6 +191,9 @@ refuse 2 powder --nope
 code=0
 on_ranks 3 - -o several <mixture.toml 2>several.log || code=$?
 [ "$code $(errors_of several.log | wc -l)" = "2 1" ] || fail "standard input: status $code, $(cat several.log)"
+code=0
+on_ranks 2 powder --set 'physics.forces="reference"' -o several 2>several.log || code=$?
+[ "$code $(errors_of several.log | wc -l)" = "2 1" ] || fail "every pair on ranks: status $code, $(cat several.log)"
 mkdir first second
 cp mixture.toml first
 sed 's/^seed = 3/seed = 4/' mixture.toml >second/mixture.toml

@@ -138,6 +138,21 @@ TEST_CASE("check tells what starts in the wrong place, and comes to an end", "[f
     CHECK(secondsOfDrawing("[2560,1440]") > 3.0 * secondsOfDrawing("[64,36]"));  // it has 1600 times the pixels
 }
 
+TEST_CASE("check says what ranks would gain, if it is asked", "[forecast]") {
+    const auto ranks = [](const std::string& flags) {
+        return nlohmann::json::parse(program::run("check --json solid " + flags).out).value("ranks", nlohmann::json());
+    };
+    CHECK(ranks("").is_null());
+    const nlohmann::json few = ranks("--ranks 2");
+    const nlohmann::json many = ranks("--ranks 1000");
+    CHECK(few["count"] == 2);
+    CHECK(few["efficiency"].get<double>() > 2.0 * many["efficiency"].get<double>());
+    CHECK(few["ghosts"].get<int>() > 0);
+    CHECK(few["speedup"].get<double>() == Approx(2.0 * few["efficiency"].get<double>()));
+    CHECK(program::run("check solid --ranks 1000").out.find("fewer ranks or threads pay better\n") != std::string::npos);
+    CHECK(program::run("check solid --ranks 0").code == 2);
+}
+
 TEST_CASE("check does not try a scene whose neighbor list does not fit into memory", "[forecast]") {
     const program::Folder folder;
     const std::string path = (folder / "dense.toml").string();

@@ -158,7 +158,7 @@ void simulate(SimulateOptions options) {
     if (isWanted(options, kFieldNames.format)) render::requireOpenVdb();
     requireSeparate({scene.files, {}, {{"-o", folder, isRunFile}}});
     warnOfStart(options.scene, scene, threadCount(options.run));
-    if (options.host != nullptr) options.host->load(options.scene);
+    if (options.host != nullptr) options.host->load(options.scene, scene);
     if (isWanted(options, kFieldNames.format) && options.run.verbosity() == Verbosity::normal)
         printToStderr(metaballsNote(scene, "the field"));
     FinishedRun run;

@@ -25,7 +25,8 @@ class SimulationHost {
     virtual ~SimulationHost() = default;
 
     /// Tells the host which scene the run is of, before anything else.
-    virtual void load(const SceneOptions& /*scene*/) {}
+    /// @throws scenes::InputError if it cannot simulate this scene
+    virtual void load(const SceneOptions& /*options*/, const scenes::Scene& /*scene*/) {}
 
     /// The simulation of a scene at time zero.
     virtual engine::Simulation start(const scenes::Scene& scene) { return engine::start(scene.setup); }
