@@ -1,5 +1,5 @@
-// The formats of particle files that `globular simulate --format` writes, beside that of the metaballs' field. A body with shape = "file" reads any of them
-// (particle_file.h).
+// The formats of particle files that `globular simulate --format` writes, beside that of the metaballs' field. A body
+// with shape = "file" reads any of them (particle_file.h).
 #pragma once
 
 #include <span>

@@ -149,7 +149,8 @@ TEST_CASE("check says what ranks would gain, if it is asked", "[forecast]") {
     CHECK(few["efficiency"].get<double>() > 2.0 * many["efficiency"].get<double>());
     CHECK(few["ghosts"].get<int>() > 0);
     CHECK(few["speedup"].get<double>() == Approx(2.0 * few["efficiency"].get<double>()));
-    CHECK(program::run("check solid --ranks 1000").out.find("fewer ranks or threads pay better\n") != std::string::npos);
+    CHECK(program::run("check solid --ranks 1000").out.find("fewer ranks or threads pay better\n") !=
+          std::string::npos);
     CHECK(program::run("check solid --ranks 0").code == 2);
 }
 
