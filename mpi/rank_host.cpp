@@ -195,10 +195,11 @@ std::vector<std::uint8_t> RankHost::checkpoint(const Simulation& /*whole*/) {
     return bytes;
 }
 
-engine::Energy RankHost::energy(const scenes::Scene& scene, Simulation& whole) {
-    // The order of its sums is that of the neighbor list, which checkpoints have and the whole simulation has not.
-    Simulation withList = engine::decodeCheckpoint(scene.setup, checkpoint(whole));
-    return engine::energy(withList);
+engine::Energy RankHost::energy(const scenes::Scene& /*scene*/, Simulation& /*whole*/) {
+    order({{"do", "energy"}});
+    engine::Energy energy;
+    together(ranks_, [&] { energy = engine::energy(simulation_); });
+    return energy;
 }
 
 void serve(MpiRanks& ranks) {
@@ -230,6 +231,7 @@ void serve(MpiRanks& ranks) {
              engine::ErrorSamples samples = decode(json.at("samples"));
              engine::addSample(samples, simulation, json.at("seconds"), json.at("cost"));
          }},
+        {"energy", [&](const Json&) { engine::energy(simulation); }},
         {"checkpoint", [&](const Json&) { engine::gatherCheckpoint(simulation); }},
     };
     while (true) {

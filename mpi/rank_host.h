@@ -32,6 +32,9 @@ class RankHost : public tools::SimulationHost {
     void addSample(engine::ErrorSamples& samples, const engine::Simulation& whole, double frameSeconds,
                    double evaluationsOfFrame) override;
     engine::Energy energy(const scenes::Scene& scene, engine::Simulation& whole) override;
+    /// mpirun kills its processes a second after it has sent them a signal; half of that is left to write what there
+    /// is.
+    double graceSeconds() const override { return 0.4; }
     std::vector<std::uint8_t> checkpoint(const engine::Simulation& whole) override;
 
  private:

@@ -127,7 +127,6 @@ void ForceEvaluator::addGravity(const Particles& particles, std::vector<Vec3>& f
 }
 
 double ForceEvaluator::pairEnergyGrid(const Particles& particles) {
-    if (particles.count() < 2) return 0.0;
     pairs_.prepare(field_, particles, particles.velocity);
     pairs_.packParticles(particles, particles.velocity);
     return pairEnergySum(pairs_);

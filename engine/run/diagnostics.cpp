@@ -1,4 +1,4 @@
-// Energy, momentum and hash of a state, as sums over the particles in the order of their indices.
+// Energy, momentum and hash of a state.
 #include "engine/run/diagnostics.h"
 
 #include <algorithm>
@@ -6,26 +6,26 @@
 #include <cmath>
 
 #include "engine/core/hash.h"
+#include "engine/ranks/exact_sums.h"
 #include "engine/state/probe.h"
 #include "engine/stepping/step_cache.h"
 
 namespace engine {
-Energy energy(ForceEvaluator& evaluator, const Particles& particles) {
+Energy energy(ForceEvaluator& evaluator, const Particles& particles, const Ranks& ranks) {
     const ForceField& field = evaluator.forceField();
-    Energy sum;
-    sum.pairs = evaluator.pairEnergyGrid(particles);
-    for (std::size_t p = 0; p < particles.count(); ++p) {
+    const double pairs = evaluator.pairEnergyGrid(particles);
+    const auto [kinetic, contacts, gravity] = exactSums<3>(ranks, particles.count(), [&](std::size_t p) {
         const Vec3& x = particles.position[p];
         const Vec3& v = particles.velocity[p];
-        sum.kinetic += 0.5 * particles.mass[p] * squaredLength(v);
-        sum.gravity -= particles.mass[p] * dot(field.gravity, x);
-        sum.contacts += sumContacts(field.obstacles, probeOf(field.materials, particles, p, v)).energy;
-    }
-    return sum;
+        return std::array{0.5 * particles.mass[p] * squaredLength(v),
+                          sumContacts(field.obstacles, probeOf(field.materials, particles, p, v)).energy,
+                          -particles.mass[p] * dot(field.gravity, x)};
+    });
+    return {.kinetic = kinetic, .pairs = pairs, .contacts = contacts, .gravity = gravity};
 }
 
 Energy energy(Simulation& simulation) {
-    return energy(simulation.cache->evaluator, simulation.particles);
+    return energy(simulation.cache->evaluator, simulation.particles, *simulation.ranks);
 }
 
 Vec3 linearMomentum(const Particles& particles) {

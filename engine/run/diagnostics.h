@@ -19,7 +19,7 @@ struct Energy {
 };
 
 /// Energy of a set of particles under the force law of an evaluator.
-Energy energy(ForceEvaluator& evaluator, const Particles& particles);
+Energy energy(ForceEvaluator& evaluator, const Particles& particles, const Ranks& ranks = Ranks::alone());
 
 /// Energy of the present state of a simulation.
 Energy energy(Simulation& simulation);

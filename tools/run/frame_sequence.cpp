@@ -39,7 +39,8 @@ std::string hashOf(const FrameList& frames) {
 
 FrameSequence::FrameSequence(const scenes::Scene& scene, FrameList frames, const SequenceOptions& options,
                              Progress& progress)
-    : FrameSource(options.folder, progress),
+    : FrameSource(options.folder, progress,
+                  options.host == nullptr ? SimulationHost().graceSeconds() : options.host->graceSeconds()),
       scene_(scene),
       frames_(std::move(frames)),
       estimatesErrors_(options.estimatesErrors),

@@ -12,6 +12,7 @@
 #include "scenes/model/scene.h"
 #include "scenes/view/frame_view.h"
 #include "tools/run/options.h"
+#include "tools/system/interrupts.h"
 
 namespace tools {
 
@@ -43,6 +44,9 @@ class SimulationHost {
                            double evaluationsOfFrame) {
         engine::addSample(samples, whole, frameSeconds, evaluationsOfFrame);
     }
+
+    /// How long a frame may go on after a signal, s.
+    virtual double graceSeconds() const { return InterruptOptions{}.graceSeconds; }
 
     /// The energy of the whole simulation at a frame.
     virtual engine::Energy energy(const scenes::Scene& /*scene*/, engine::Simulation& whole) {
