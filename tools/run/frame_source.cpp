@@ -18,11 +18,12 @@ constexpr const char* kLastWords =
 
 }  // namespace
 
-FrameSource::FrameSource(FrameFolder* folder, Progress& progress) : folder_(folder), progress_(progress) {
+FrameSource::FrameSource(FrameFolder* folder, Progress& progress, double graceSeconds)
+    : folder_(folder), progress_(progress) {
     const char* const notice = progress_.verbosity() == Verbosity::quiet ? nullptr
                                : isatty(STDERR_FILENO) == 1              ? kNoticeOnTerminal
                                                                          : kNotice;
-    if (folder_ != nullptr) interrupts_.emplace(InterruptOptions{true, notice, kLastWords});
+    if (folder_ != nullptr) interrupts_.emplace(InterruptOptions{true, graceSeconds, notice, kLastWords});
 }
 
 void FrameSource::store(const SequencedFrame& frame, std::span<const std::uint8_t> bytes) {

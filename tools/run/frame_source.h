@@ -70,7 +70,8 @@ class FrameSource {
  protected:
     /// @param folder  writes the frames; nullptr if they are only passed on
     /// @param progress  must outlive the object
-    FrameSource(FrameFolder* folder, Progress& progress);
+    /// @param graceSeconds  how long a frame may go on after a signal, s
+    FrameSource(FrameFolder* folder, Progress& progress, double graceSeconds = InterruptOptions{}.graceSeconds);
 
     /// Whether the run must stop; the report then says so.
     bool recordStop();

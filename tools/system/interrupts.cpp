@@ -23,8 +23,7 @@ namespace {
 constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
 
 // Times in ns. Chosen: a run ends within two seconds of the first signal and within a tenth of the second one, with
-// some time for the system to end it. Between the grace time and the end a run writes what it has and stops ffmpeg.
-constexpr std::int64_t kGraceTime = 1'200'000'000;      ///< how long the present frame may take after the first signal
+// some time for the system to end it.
 constexpr std::int64_t kEndAfterFirst = 1'850'000'000;  ///< from the first signal to the end
 constexpr std::int64_t kEndAfterSecond = 70'000'000;    ///< from the second signal to the end
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
@@ -139,7 +138,8 @@ class InterruptWatch::Deadline {
     std::thread thread_;
 };
 
-InterruptWatch::InterruptWatch(const InterruptOptions& options) : endsSoon_(options.endsSoon) {
+InterruptWatch::InterruptWatch(const InterruptOptions& options)
+    : endsSoon_(options.endsSoon), graceTime_(static_cast<std::int64_t>(1e9 * options.graceSeconds)) {
     receivedSignal = 0;
     receivedCount = 0;
     secondTime = 0;
@@ -159,7 +159,7 @@ int InterruptWatch::signal() const {
 
 bool InterruptWatch::mustStop() const {
     if (!endsSoon_ || receivedSignal == 0) return false;
-    return receivedCount > 1 || monotonicTime() - firstTime > kGraceTime;
+    return receivedCount > 1 || monotonicTime() - firstTime > graceTime_;
 }
 
 }  // namespace tools

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <csignal>
+#include <cstdint>
 #include <functional>
 #include <memory>
 
@@ -10,10 +11,13 @@ namespace tools {
 
 /// What signals may do while an InterruptWatch exists.
 struct InterruptOptions {
-    /// Whether the program ends soon whatever it does: mustStop() becomes true about a second after the first signal,
+    /// Whether the program ends soon whatever it does: mustStop() becomes true graceSeconds after the first signal,
     /// or with the second one. Two seconds after the first signal, or a tenth of a second after the second, the program
     /// ends where it stands. Without this the second signal ends it at once.
     bool endsSoon = false;
+    /// How long the present frame may take after the first signal until mustStop(), s. Chosen: a second is left to
+    /// write what there is and to stop ffmpeg.
+    double graceSeconds = 1.2;
     /// What the signal handler writes to standard error when the first signal is a SIGINT; must outlive the object;
     /// nullptr: nothing.
     const char* notice = nullptr;
@@ -41,6 +45,7 @@ class InterruptWatch {
     class Deadline;
 
     bool endsSoon_;
+    std::int64_t graceTime_;  ///< ns
     std::array<struct sigaction, 3> previousActions_ = {};
     std::unique_ptr<Deadline> deadline_;  ///< ends the program in time; nullptr unless it ends soon
 };
