@@ -1,5 +1,6 @@
 // Measurements of a state: energy, linear and angular momentum, largest speed, and a hash that is equal for two runs if
-// every bit of their particles agrees. Sums run in a fixed order, so that they do not depend on the number of threads.
+// every bit of their particles agrees. Energies are exact sums, rounded once, and other sums run in the order of the
+// particles, so that none depends on the numbers of threads and ranks.
 #pragma once
 
 #include <string>
