@@ -19,24 +19,51 @@ class ExactSum {
     static constexpr std::size_t kWords = 68;
 
     void add(double term) {
-        constexpr std::uint64_t kImplicit = std::uint64_t{1} << 52;  // the leading bit, which is not stored
-        const auto bits = std::bit_cast<std::uint64_t>(term);
-        const std::uint64_t exponent = bits >> 52 & 0x7FF;
-        if (exponent == 0x7FF) {
-            ++words_.back();  // counts the terms that are not finite
+        const Parts parts(term);
+        if (parts.word == kNotFinite) {
+            ++words_.back();
             return;
         }
-        const std::uint64_t isNormal = exponent == 0 ? 0 : 1;
-        const std::uint64_t place = exponent - isNormal;
-        const std::uint64_t mantissa = (bits & (kImplicit - 1)) | isNormal * kImplicit;
-        const std::uint64_t shift = place % 32;
-        const auto low = static_cast<std::int64_t>(mantissa << shift & 0xFFFFFFFF);
-        const auto high = static_cast<std::int64_t>(mantissa >> (32 - shift));
-        const std::int64_t sign = static_cast<std::int64_t>(bits) >> 63;  // 0, or -1 for a negative term
-        words_[place / 32] += (low ^ sign) - sign;
-        words_[place / 32 + 1] += (high ^ sign) - sign;
-        if (++waiting_ == kMostWaiting) carry();
+        words_[parts.word] += parts.low;
+        words_[parts.word + 1] += parts.high;
+        if (++waiting_ >= kMostWaiting) carry();
     }
+
+    /// Adds terms one after the other to a sum. Neighboring terms mostly belong to the same words, which are then kept
+    /// in registers.
+    class Adder {
+     public:
+        void add(double term, ExactSum& to) {
+            const Parts parts(term);
+            if (parts.word != word_ || waiting_ == kMostWaiting) {
+                flush(to);
+                word_ = parts.word;
+            }
+            low_ += parts.low;
+            high_ += parts.high;
+            ++waiting_;
+        }
+
+        /// Passes on what was added since the last time.
+        void flush(ExactSum& to) {
+            if (word_ == kNotFinite) {
+                to.words_.back() += waiting_;
+            } else {
+                if (to.waiting_ + waiting_ > kMostWaiting) to.carry();
+                to.words_[word_] += low_;
+                to.words_[word_ + 1] += high_;
+                to.waiting_ += waiting_;
+            }
+            low_ = high_ = 0;
+            waiting_ = 0;
+        }
+
+     private:
+        std::size_t word_ = 0;
+        std::int64_t low_ = 0;
+        std::int64_t high_ = 0;
+        std::uint32_t waiting_ = 0;
+    };
 
     ExactSum& operator+=(ExactSum other) {
         carry();
@@ -55,6 +82,32 @@ class ExactSum {
     }
 
  private:
+    /// Stands for a word where a term is infinite or NaN.
+    static constexpr std::size_t kNotFinite = kWords;
+
+    /// What a term adds to a word and to the next one.
+    struct Parts {
+        explicit Parts(double term) {
+            constexpr std::uint64_t kImplicit = std::uint64_t{1} << 52;  // the leading bit, which is not stored
+            const auto bits = std::bit_cast<std::uint64_t>(term);
+            const std::uint64_t exponent = bits >> 52 & 0x7FF;
+            const std::uint64_t isNormal = exponent == 0 ? 0 : 1;
+            const std::uint64_t place = exponent - isNormal;
+            const std::uint64_t mantissa = (bits & (kImplicit - 1)) | isNormal * kImplicit;
+            const std::uint64_t shift = place % 32;
+            const auto lower = static_cast<std::int64_t>(mantissa << shift & 0xFFFFFFFF);
+            const auto upper = static_cast<std::int64_t>(mantissa >> (32 - shift));
+            const std::int64_t sign = static_cast<std::int64_t>(bits) >> 63;  // 0, or -1 for a negative term
+            word = exponent == 0x7FF ? kNotFinite : place / 32;
+            low = (lower ^ sign) - sign;
+            high = (upper ^ sign) - sign;
+        }
+
+        std::size_t word;
+        std::int64_t low;
+        std::int64_t high;
+    };
+
     /// Brings every word but the last below 2^32 in magnitude.
     void carry() {
         for (std::size_t k = 0; k + 2 < kWords; ++k) {

@@ -35,10 +35,12 @@ std::array<double, n> exactSums(const Ranks& ranks, std::size_t count, const Ter
     std::array<ExactSum, n> sums;
     for (const Sums& part : resultsOfChunks<Sums>(count, [&](std::size_t begin, std::size_t end) {
              Sums ofChunk;
+             std::array<ExactSum::Adder, n> adders;
              for (std::size_t index = begin; index < end; ++index) {
                  const std::array<double, n> of = terms(index);
-                 for (std::size_t k = 0; k < n; ++k) ofChunk[k].add(of[k]);
+                 for (std::size_t k = 0; k < n; ++k) adders[k].add(of[k], ofChunk[k]);
              }
+             for (std::size_t k = 0; k < n; ++k) adders[k].flush(ofChunk[k]);
              return ofChunk;
          }))
         for (std::size_t k = 0; k < n; ++k) sums[k] += part[k];

@@ -63,6 +63,16 @@ TEST_CASE("integers are summed exactly, far more than carries wait for", "[exact
     for (int k = 0; k < 5000; ++k) sum.add(0x1.fffffffffffffp1000);
     for (int k = 0; k < 5000; ++k) sum.add(-0x1.fffffffffffffp1000);
     CHECK(sum.value() == static_cast<double>(expected));
+    // The largest terms, all of one word, in chunks of a parallel sum and one after the other.
+    const auto term = [](std::size_t k) {
+        return k < 10000 ? 0x1.fffffffffffffp30 : k < 20000 ? -0x1.fffffffffffffp30 : 1.0;
+    };
+    CHECK(engine::exactSum(engine::Ranks::alone(), 20007, term) == 7.0);
+    engine::ExactSum::Adder adder;
+    engine::ExactSum one;
+    for (std::size_t k = 0; k < 20007; ++k) adder.add(term(k), one);
+    adder.flush(one);
+    CHECK(one.value() == 7.0);
 }
 
 TEST_CASE("a sum does not depend on the order and the division of its terms", "[exact]") {
@@ -98,6 +108,8 @@ TEST_CASE("a sum with a term that is not finite is not a number", "[exact]") {
     CHECK(std::isnan(sumOf({1.0, kInfinity})));
     CHECK(std::isnan(sumOf({1.0, -kInfinity, 2.0})));
     CHECK(std::isnan(sumOf({std::numeric_limits<double>::quiet_NaN()})));
+    CHECK(std::isnan(
+        engine::exactSum(engine::Ranks::alone(), 3, [](std::size_t k) { return k == 1 ? kInfinity : 1.0; })));
     engine::ExactSum sum;
     engine::ExactSum part;
     part.add(kInfinity);
