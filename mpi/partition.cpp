@@ -42,7 +42,7 @@ void require(int code, const char* what) {
     if (code == ZOLTAN_FATAL || code == ZOLTAN_MEMERR) throw std::runtime_error(std::string("Zoltan cannot ") + what);
 }
 
-/// The lists in which Zoltan says which particles go where. Nobody needs them here: the cuts are asked later.
+/// The lists of particles to move that Zoltan returns. They are not used: ownerOf() asks for the cuts instead.
 struct Moves {
     int count = 0;
     ZOLTAN_ID_PTR globalIds = nullptr;

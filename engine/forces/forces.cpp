@@ -14,13 +14,14 @@ void addGhosts(const PairTraversal& pairs, PairMatrix& matrix) {
     matrix.ranks = pairs.ranks;
     matrix.ghosts.clear();
     for (std::uint32_t sortedIndex = 0; sortedIndex < pairs.list.count(); ++sortedIndex)
-        if (pairs.joint.order[sortedIndex] == kGhost) matrix.ghosts.push_back(sortedIndex);
+        if (pairs.withGhosts.order[sortedIndex] == kGhost) matrix.ghosts.push_back(sortedIndex);
     matrix.fetchGhosts = [&pairs, own = std::vector<Vec3>(), all = std::vector<Vec3>()](std::vector<Vec3>& x) mutable {
         const NeighborList& list = pairs.list;
-        own.resize(pairs.joint.halo.jointOf.size());
+        own.resize(pairs.withGhosts.halo.combinedIndexOf.size());
         for (std::size_t sortedIndex = 0; sortedIndex < x.size(); ++sortedIndex)
-            if (pairs.joint.order[sortedIndex] != kGhost) own[pairs.joint.order[sortedIndex]] = x[sortedIndex];
-        share(*pairs.ranks, pairs.joint.halo, own, all);
+            if (pairs.withGhosts.order[sortedIndex] != kGhost)
+                own[pairs.withGhosts.order[sortedIndex]] = x[sortedIndex];
+        share(*pairs.ranks, pairs.withGhosts.halo, own, all);
         for (std::size_t sortedIndex = 0; sortedIndex < x.size(); ++sortedIndex)
             x[sortedIndex] = all[list.order[sortedIndex]];
     };
@@ -67,7 +68,7 @@ double ForceEvaluator::assemble(const Particles& particles, const MatrixWeights&
     // Only the forces have a reference. The matrix always comes from the neighbor list, since over every pair of
     // particles its products would be the same sums.
     if (method_ == ForceMethod::reference) pairForcesReference(field_, particles, particles.velocity, forces);
-    const Particles& listed = pairs_.ranks->areMany() ? pairs_.joint.particles : particles;
+    const Particles& listed = pairs_.listed(particles);
     matrix.mass.resize(pairs_.list.count());
     inParallel(matrix.mass.size(), kParticleGrain, [&](std::size_t sortedIndex) {
         matrix.mass[sortedIndex] = listed.mass[pairs_.list.order[sortedIndex]];
@@ -83,7 +84,7 @@ void ForceEvaluator::renewList(const Particles& particles) {
 
 void ForceEvaluator::fetchGhosts(const Particles& particles) {
     if (pairs_.ranks->areMany())
-        engine::fetchGhosts(*pairs_.ranks, particles.position, particles.velocity, pairs_.joint);
+        engine::fetchGhosts(*pairs_.ranks, particles.position, particles.velocity, pairs_.withGhosts);
 }
 
 void ForceEvaluator::forgetList() {
@@ -99,11 +100,11 @@ bool ForceEvaluator::hasNoNeighbor(const std::vector<Vec3>& positions, const std
                                    std::uint32_t& cachedNeighbor) const {
     const NeighborList& list = pairs_.list;
     const bool areMany = pairs_.ranks->areMany();
-    const JointParticles& joint = pairs_.joint;
-    if (p >= (areMany ? joint.halo.jointOf.size() : list.sortedIndexOf.size())) return false;
-    const std::vector<Vec3>& at = areMany ? joint.particles.position : positions;
-    const std::vector<double>& radius = areMany ? joint.particles.radius : radii;
-    const std::size_t self = areMany ? joint.halo.jointOf[p] : p;
+    const OwnAndGhosts& withGhosts = pairs_.withGhosts;
+    if (p >= (areMany ? withGhosts.halo.combinedIndexOf.size() : list.sortedIndexOf.size())) return false;
+    const std::vector<Vec3>& at = areMany ? withGhosts.particles.position : positions;
+    const std::vector<double>& radius = areMany ? withGhosts.particles.radius : radii;
+    const std::size_t self = areMany ? withGhosts.halo.combinedIndexOf[p] : p;
     const std::size_t known = std::min(at.size(), list.sortedIndexOf.size());
     const auto isNear = [&](std::uint32_t other) {
         if (other >= known) return false;

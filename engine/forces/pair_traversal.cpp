@@ -78,7 +78,7 @@ void PairTraversal::renewList(const ForceField& field, const Particles& particle
             skin = optimalSkin(*meanNeighbors, step * largestRelativeSpeed(*ranks, velocities, groups) / cutoff);
         buildList(particles, particles.position, terms.cutoff, skin * cutoff);
     }
-    if (ranks->areMany()) fetchGhosts(*ranks, particles.position, velocities, joint);
+    if (ranks->areMany()) fetchGhosts(*ranks, particles.position, velocities, withGhosts);
 }
 
 void PairTraversal::buildList(const Particles& particles, const std::vector<Vec3>& positions, double cutoff,
@@ -86,27 +86,27 @@ void PairTraversal::buildList(const Particles& particles, const std::vector<Vec3
     const auto radii = std::span(particles.radius).first(positions.size());
     const SizeTable sizes = sizesOf(*ranks, radii);
     if (ranks->areMany()) {
-        findGhosts(*ranks, particles, positions, cutoff + skin, joint);
-        build(list, joint.particles.position, joint.particles.radius, cutoff, skin, sizes, joint.halo.isGhost);
+        findGhosts(*ranks, particles, positions, cutoff + skin, withGhosts);
+        build(list, withGhosts.particles.position, withGhosts.particles.radius, cutoff, skin, sizes,
+              withGhosts.halo.isGhost);
         list.builtAt = positions;
-        joint.order.clear();
+        withGhosts.order.clear();
         for (const std::uint32_t j : list.order)
-            joint.order.push_back(joint.halo.isGhost[j] != 0 ? kGhost : joint.halo.ownOf[j]);
-        countNeighbors(joint.particles, sizes);
+            withGhosts.order.push_back(withGhosts.halo.isGhost[j] != 0 ? kGhost : withGhosts.halo.ownOf[j]);
     } else {
         build(list, positions, radii, cutoff, skin, sizes, {});
-        countNeighbors(particles, sizes);
     }
+    countNeighbors(listed(particles), sizes);
     isPacked = false;  // the new list has the particles in another order
 }
 
-void PairTraversal::countNeighbors(const Particles& listed, const SizeTable& sizes) {
+void PairTraversal::countNeighbors(const Particles& particles, const SizeTable& sizes) {
     const bool areFew = sumOfAll(*ranks, list.builtAt.size()) <= kFew;
     const auto counts = sumOver<NeighborCounts>(list.count(), [&](std::size_t laneSlot) -> NeighborCounts {
-        const std::uint32_t p = list.order[static_cast<std::uint32_t>(list.rows.ownIndices[laneSlot])];
-        if (!areFew && scatter(listed.id[p]) % kSampled != 0) return {};
-        if (ranks->areMany() && joint.halo.isGhost[p] != 0) return {};
-        return {1, neighborCount(list, laneSlot, listed, sizes)};
+        const std::uint32_t p = list.order[sortedIndexAt(laneSlot)];
+        if (!areFew && scatter(particles.id[p]) % kSampled != 0) return {};
+        if (ranks->areMany() && withGhosts.halo.isGhost[p] != 0) return {};
+        return {1, neighborCount(list, laneSlot, particles, sizes)};
     });
     std::array<std::int64_t, 2> sums = {counts.particles, counts.neighbors};
     ranks->sum(sums);
@@ -124,18 +124,12 @@ void PairTraversal::prepare(const ForceField& field, const Particles& particles,
     unit = isFloat ? list.reach() / kUnits : 1.0;
     table.fill(terms.pair, terms.oneRadius ? 2.0 * terms.largestRadius : 0.0);
     if (!isFloat) return packParticles(particles, velocities);
-    if (ranks->areMany())
-        packFloats(list, joint.particles, joint.velocities, unit, packedFloat);
-    else
-        packFloats(list, particles, velocities, unit, packedFloat);
+    packFloats(list, listed(particles), listedVelocities(velocities), unit, packedFloat);
 }
 
 void PairTraversal::packParticles(const Particles& particles, const std::vector<Vec3>& velocities) {
     if (isPacked) return;
-    if (ranks->areMany())
-        packDoubles(list, joint.particles, joint.velocities, packed);
-    else
-        packDoubles(list, particles, velocities, packed);
+    packDoubles(list, listed(particles), listedVelocities(velocities), packed);
     isPacked = true;
 }
 

@@ -14,9 +14,9 @@
 #include "engine/forces/force_field.h"
 #include "engine/forces/packed_particles.h"
 #include "engine/forces/pair_table.h"
-#include "engine/neighbors/joint_particles.h"
 #include "engine/neighbors/neighbor_list.h"
 #include "engine/neighbors/neighbor_rows.h"
+#include "engine/neighbors/own_and_ghosts.h"
 #include "engine/ranks/ranks.h"
 #include "engine/state/setup.h"
 
@@ -28,11 +28,11 @@ struct PairTraversal {
     std::vector<Material> materials;
     ForceTerms terms;
     PairTable table;  ///< constants of the pairs of every two materials
-    /// The neighbor list; for one of many ranks, of the joint particles.
+    /// The neighbor list; for one of many ranks, of the own particles and ghosts.
     NeighborList list;
     /// Mean number of neighbors within the cutoff when the list was built; none before the first list with particles.
     std::optional<double> meanNeighbors;
-    JointParticles joint;                      ///< of one of many ranks; empty for a run in one process
+    OwnAndGhosts withGhosts;                   ///< of one of many ranks; empty for a run in one process
     FarGroups groups;                          ///< groups each of which may move as a whole without outdating the list
     Precision precision = Precision::doubles;  ///< precision of the pair forces where hasLanes()
     Scratch<std::vector<PackedParticle>> packed;  ///< particles in double; valid while isPacked
@@ -58,14 +58,20 @@ struct PairTraversal {
 
     /// Counts the neighbors of some of the listed particles. Part of buildList(). How many more the rows have is of no
     /// use for a mean, because it depends on how they were searched.
-    void countNeighbors(const Particles& listed, const SizeTable& sizes);
+    void countNeighbors(const Particles& particles, const SizeTable& sizes);
 
     /// Packs the particles in double if prepare(), called before with the same arguments, has packed them in float
     /// only.
     void packParticles(const Particles& particles, const std::vector<Vec3>& velocities);
 
+    /// The particles that the neighbor list is of, and the velocities of these: the rank's own, or those with ghosts.
+    const Particles& listed(const Particles& own) const { return ranks->areMany() ? withGhosts.particles : own; }
+    const std::vector<Vec3>& listedVelocities(const std::vector<Vec3>& own) const {
+        return ranks->areMany() ? withGhosts.velocities : own;
+    }
+
     /// The rank's particle at each sorted index of the neighbor list, or kGhost.
-    const std::vector<std::uint32_t>& order() const { return ranks->areMany() ? joint.order : list.order; }
+    const std::vector<std::uint32_t>& order() const { return ranks->areMany() ? withGhosts.order : list.order; }
 
     /// Whether the SIMD kernels serve these particles: unless there are many materials with several laws.
     bool hasLanes() const { return !table.mixtures.empty(); }

@@ -76,18 +76,18 @@ Halo findHalo(const Ranks& ranks, const std::vector<Vec3>& positions, std::span<
     halo.ids.assign(ids.begin(), ids.end());
     for (const auto& received : ghostIds) halo.ids.insert(halo.ids.end(), received.begin(), received.end());
     std::ranges::sort(halo.ids);
-    const auto jointIndexOf = [&](std::uint32_t id) {
+    const auto combinedIndex = [&](std::uint32_t id) {
         return static_cast<std::uint32_t>(std::ranges::lower_bound(halo.ids, id) - halo.ids.begin());
     };
     halo.isGhost.assign(halo.ids.size(), 1);
     halo.ownOf.assign(halo.ids.size(), 0);
     for (std::uint32_t p = 0; p < ids.size(); ++p) {
-        halo.jointOf.push_back(jointIndexOf(ids[p]));
-        halo.ownOf[halo.jointOf.back()] = p;
-        halo.isGhost[halo.jointOf.back()] = 0;
+        halo.combinedIndexOf.push_back(combinedIndex(ids[p]));
+        halo.ownOf[halo.combinedIndexOf.back()] = p;
+        halo.isGhost[halo.combinedIndexOf.back()] = 0;
     }
     for (std::size_t k = 0; k < halo.routes.size(); ++k)
-        for (const std::uint32_t id : ghostIds[k]) halo.routes[k].ghosts.push_back(jointIndexOf(id));
+        for (const std::uint32_t id : ghostIds[k]) halo.routes[k].ghosts.push_back(combinedIndex(id));
     return halo;
 }
 

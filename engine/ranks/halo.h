@@ -14,20 +14,20 @@
 namespace engine {
 
 /// Own particles and ghosts together, in ascending order of their ids, and the ways between ranks. The index of a
-/// particle in this order is its joint index.
+/// particle in this order is its combined index.
 struct Halo {
     /// What a rank sends to another one and receives from it.
     struct Route {
         int rank = 0;
         std::vector<std::uint32_t> own;     ///< indices of the particles that are sent
-        std::vector<std::uint32_t> ghosts;  ///< joint indices of those received
+        std::vector<std::uint32_t> ghosts;  ///< combined indices of those received
     };
 
     std::vector<Route> routes;
-    std::vector<std::uint32_t> ids;      ///< by joint index
-    std::vector<std::uint32_t> jointOf;  ///< joint index of each own particle
-    std::vector<std::uint32_t> ownOf;    ///< index of the own particle at each joint index; arbitrary for ghosts
-    std::vector<std::uint8_t> isGhost;   ///< by joint index, 0 or 1
+    std::vector<std::uint32_t> ids;              ///< by combined index
+    std::vector<std::uint32_t> combinedIndexOf;  ///< combined index of each own particle
+    std::vector<std::uint32_t> ownOf;   ///< index of the own particle at each combined index; arbitrary for ghosts
+    std::vector<std::uint8_t> isGhost;  ///< by combined index, 0 or 1
 };
 
 /// Finds the ghosts of all ranks.
@@ -60,17 +60,17 @@ std::vector<std::vector<Item>> swapItems(const Ranks& ranks, const std::vector<H
     return received;
 }
 
-/// Brings what the own particles have, and what other ranks have of the ghosts, into joint order.
+/// Brings what the own particles have, and what other ranks have of the ghosts, into combined order.
 /// @param own    one item of each own particle; items are copied as bytes
-/// @param joint  receives one item of each own particle and ghost
+/// @param combined  receives one item of each own particle and ghost
 template <class Item>
-void share(const Ranks& ranks, const Halo& halo, const std::vector<Item>& own, std::vector<Item>& joint) {
+void share(const Ranks& ranks, const Halo& halo, const std::vector<Item>& own, std::vector<Item>& combined) {
     const auto received = swapItems<Item>(
         ranks, halo.routes, [&](std::uint32_t p) { return own[p]; }, ghostCounts(halo));
-    joint.resize(halo.ids.size());
-    for (std::size_t p = 0; p < halo.jointOf.size(); ++p) joint[halo.jointOf[p]] = own[p];
+    combined.resize(halo.ids.size());
+    for (std::size_t p = 0; p < halo.combinedIndexOf.size(); ++p) combined[halo.combinedIndexOf[p]] = own[p];
     for (std::size_t k = 0; k < halo.routes.size(); ++k)
-        for (std::size_t g = 0; g < received[k].size(); ++g) joint[halo.routes[k].ghosts[g]] = received[k][g];
+        for (std::size_t g = 0; g < received[k].size(); ++g) combined[halo.routes[k].ghosts[g]] = received[k][g];
 }
 
 }  // namespace engine

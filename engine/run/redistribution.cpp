@@ -12,25 +12,21 @@
 namespace engine {
 namespace {
 
-/// What can be seen of a particle.
-struct Appearance {
-    Vec3 position;
-    Vec3 velocity;
-    double radius = 0.0;
-    double mass = 0.0;
-    double birthTime = 0.0;
-    std::uint32_t material = 0;
+/// A particle as files have it.
+struct ParticleRecord {
+    NewParticle particle;
     std::uint32_t id = 0;
 };
 
-Appearance appearanceOf(const Simulation& simulation, std::size_t p) {
+ParticleRecord recordOf(const Simulation& simulation, std::size_t p) {
     const Particles& particles = simulation.particles;
-    return {particles.position[p],  particles.velocity[p], particles.radius[p], particles.mass[p],
-            particles.birthTime[p], particles.material[p], particles.id[p]};
+    return {{particles.position[p], particles.velocity[p], particles.radius[p], particles.mass[p],
+             particles.birthTime[p], particles.material[p]},
+            particles.id[p]};
 }
 
-/// A particle with all that later steps depend on, on its way to another rank.
-struct Traveler : Appearance {
+/// A particle with all that later steps depend on, for the migration to another rank.
+struct MigrationRecord : ParticleRecord {
     Vec3 force = Vec3::Zero();
     Vec3 meanAcceleration = Vec3::Zero();
     Vec3 builtAt = Vec3::Zero();
@@ -39,26 +35,26 @@ struct Traveler : Appearance {
     bool isListed = false;  ///< whether it was there when the neighbor list was built
 };
 
-Traveler travelerOf(const Simulation& simulation, std::size_t p) {
+MigrationRecord migrationRecordOf(const Simulation& simulation, std::size_t p) {
     const StepCache& cache = *simulation.cache;
-    Traveler traveler{appearanceOf(simulation, p)};
+    MigrationRecord record{recordOf(simulation, p)};
     const auto take = [&](const std::vector<Vec3>& from, Vec3& to, bool& has) {
         has = p < from.size();
         if (has) to = from[p];
     };
-    take(cache.forces, traveler.force, traveler.hasForce);
-    take(cache.meanAccelerations, traveler.meanAcceleration, traveler.hasMeanAcceleration);
-    take(cache.evaluator.list().builtAt, traveler.builtAt, traveler.isListed);
-    return traveler;
+    take(cache.forces, record.force, record.hasForce);
+    take(cache.meanAccelerations, record.meanAcceleration, record.hasMeanAcceleration);
+    take(cache.evaluator.list().builtAt, record.builtAt, record.isListed);
+    return record;
 }
 
-/// Sends what recordOf(simulation, index) returns of each particle to the rank that rankOf(position) names.
+/// Sends what toRecord(simulation, index) returns of each particle to the rank that rankOf(position) names.
 template <class Record, class RankOf>
 std::vector<Record> sendParticles(const Ranks& ranks, const Simulation& simulation,
-                                  Record (*recordOf)(const Simulation&, std::size_t), const RankOf& rankOf) {
+                                  Record (*toRecord)(const Simulation&, std::size_t), const RankOf& rankOf) {
     std::vector<std::vector<Record>> toRanks(static_cast<std::size_t>(ranks.count()));
     for (std::size_t p = 0; p < simulation.particles.count(); ++p)
-        toRanks[static_cast<std::size_t>(rankOf(simulation.particles.position[p]))].push_back(recordOf(simulation, p));
+        toRanks[static_cast<std::size_t>(rankOf(simulation.particles.position[p]))].push_back(toRecord(simulation, p));
     return exchangeItems(ranks, toRanks);
 }
 
@@ -72,47 +68,45 @@ void inOrder(const std::vector<Record>& records, const Visit& visit) {
     for (const auto& [id, k] : order) visit(records[k]);
 }
 
-void clear(Particles& particles, std::size_t room) {
+/// Replaces particles by those of some records, without touching the id of the next one. Calls visit(record) for each
+/// record, in the order of the particles.
+template <class Record, class Visit>
+void replaceParticles(Particles& particles, const std::vector<Record>& records, const Visit& visit) {
+    const std::uint32_t nextId = particles.nextId;
     forEachArray(particles, [&](auto& array) {
         array.clear();
-        array.reserve(room);
+        array.reserve(records.size());
     });
-}
-
-void add(const Appearance& particle, Particles& particles) {
-    particles.position.push_back(particle.position);
-    particles.velocity.push_back(particle.velocity);
-    particles.radius.push_back(particle.radius);
-    particles.mass.push_back(particle.mass);
-    particles.birthTime.push_back(particle.birthTime);
-    particles.material.push_back(particle.material);
-    particles.id.push_back(particle.id);
+    inOrder(records, [&](const Record& record) {
+        append(particles, record.particle);
+        particles.id.back() = record.id;
+        visit(record);
+    });
+    particles.nextId = nextId;
 }
 
 /// Replaces the particles of a simulation, with what belongs to them; returns where they were when the neighbor list
 /// was built.
-std::vector<Vec3> replaceParticles(Simulation& simulation, const std::vector<Traveler>& travelers) {
+std::vector<Vec3> replaceParticles(Simulation& simulation, const std::vector<MigrationRecord>& records) {
     StepCache& cache = *simulation.cache;
-    clear(simulation.particles, travelers.size());
     cache.forces.clear();
     cache.meanAccelerations.clear();
     cache.clearance.clear();
     cache.cachedNeighbors.clear();
     std::vector<Vec3> builtAt;
-    inOrder(travelers, [&](const Traveler& traveler) {
-        add(traveler, simulation.particles);
+    replaceParticles(simulation.particles, records, [&](const MigrationRecord& record) {
         // The newest particles may have none of these.
-        if (traveler.hasForce) cache.forces.push_back(traveler.force);
-        if (traveler.hasMeanAcceleration) cache.meanAccelerations.push_back(traveler.meanAcceleration);
-        if (traveler.isListed) builtAt.push_back(traveler.builtAt);
+        if (record.hasForce) cache.forces.push_back(record.force);
+        if (record.hasMeanAcceleration) cache.meanAccelerations.push_back(record.meanAcceleration);
+        if (record.isListed) builtAt.push_back(record.builtAt);
     });
     return builtAt;
 }
 
-/// Continues with other particles.
+/// Makes the simulation go on with other particles.
 /// @param cutoff  with the skin, both in meters, of the neighbor list
-void settle(Simulation& simulation, const std::vector<Traveler>& travelers, double cutoff, double skin) {
-    const std::vector<Vec3> builtAt = replaceParticles(simulation, travelers);
+void continueWith(Simulation& simulation, const std::vector<MigrationRecord>& records, double cutoff, double skin) {
+    const std::vector<Vec3> builtAt = replaceParticles(simulation, records);
     renewGroups(simulation);
     ForceEvaluator& evaluator = simulation.cache->evaluator;
     evaluator.restoreList(simulation.particles, builtAt, cutoff, skin);
@@ -172,26 +166,25 @@ int rankZero(const Vec3& /*position*/) {
 void redistribute(Simulation& simulation) {
     const Ranks& ranks = *simulation.ranks;
     const auto ownerOf = [&](const Vec3& position) { return ranks.ownerOf(position); };
-    const auto travelers = sendParticles(ranks, simulation, travelerOf, ownerOf);
+    const auto records = sendParticles(ranks, simulation, migrationRecordOf, ownerOf);
     const NeighborList& list = simulation.cache->evaluator.list();
-    settle(simulation, travelers, list.cutoff, list.skin);
+    continueWith(simulation, records, list.cutoff, list.skin);
 }
 
 void gather(const Simulation& simulation, Simulation& whole) {
     const Ranks& ranks = *simulation.ranks;
-    const auto appearances = sendParticles(ranks, simulation, appearanceOf, rankZero);
+    const auto records = sendParticles(ranks, simulation, recordOf, rankZero);
     const std::uint64_t held = sumOfAll(ranks, simulation.steps.held);
     if (ranks.own() != 0) return;
     copyCommon(simulation, whole);
     whole.steps.held = held;
     whole.cache->invalidate();
-    clear(whole.particles, appearances.size());
-    inOrder(appearances, [&](const Appearance& particle) { add(particle, whole.particles); });
+    replaceParticles(whole.particles, records, [](const ParticleRecord&) {});
 }
 
 std::vector<std::uint8_t> gatherCheckpoint(const Simulation& simulation) {
     const Ranks& ranks = *simulation.ranks;
-    const auto travelers = sendParticles(ranks, simulation, travelerOf, rankZero);
+    const auto records = sendParticles(ranks, simulation, migrationRecordOf, rankZero);
     const std::uint64_t held = sumOfAll(ranks, simulation.steps.held);
     TwinRun twin = gatherTwin(ranks, simulation.automatic.twin);
     if (ranks.own() != 0) return {};
@@ -200,7 +193,7 @@ std::vector<std::uint8_t> gatherCheckpoint(const Simulation& simulation) {
     whole.setup.materials = simulation.setup.materials;
     whole.automatic.twin = std::move(twin);
     whole.steps.held = held;
-    const std::vector<Vec3> builtAt = replaceParticles(whole, travelers);
+    const std::vector<Vec3> builtAt = replaceParticles(whole, records);
     const StepCache& cache = *simulation.cache;
     whole.cache->forcesCurrent = cache.forcesCurrent;
     whole.cache->energy = cache.energy;
@@ -223,11 +216,11 @@ void divide(Simulation& simulation, const Ranks& ranks) {
     if (ranks.own() != 0) reach = {0.0, 0.0};
     ranks.maximize(reach);
     const auto ownerOf = [&](const Vec3& position) { return ranks.ownerOf(position); };
-    const auto travelers = sendParticles(ranks, simulation, travelerOf, ownerOf);
+    const auto records = sendParticles(ranks, simulation, migrationRecordOf, ownerOf);
     simulation.ranks = &ranks;
     const Setup& setup = simulation.setup;
     simulation.cache->evaluator = ForceEvaluator(forceFieldOf(setup), setup.forces, setup.precision, ranks);
-    settle(simulation, travelers, reach[0], reach[1]);
+    continueWith(simulation, records, reach[0], reach[1]);
 }
 
 }  // namespace engine

@@ -1,5 +1,5 @@
 // Fetches ghosts from their ranks.
-#include "engine/neighbors/joint_particles.h"
+#include "engine/neighbors/own_and_ghosts.h"
 
 #include "engine/core/parallel.h"
 
@@ -22,15 +22,15 @@ struct Moving {
 }  // namespace
 
 void findGhosts(const Ranks& ranks, const Particles& own, const std::vector<Vec3>& positions, double reach,
-                JointParticles& joint) {
+                OwnAndGhosts& all) {
     const std::size_t count = positions.size();
-    joint.halo = findHalo(ranks, positions, std::span(own.id).first(count), reach);
+    all.halo = findHalo(ranks, positions, std::span(own.id).first(count), reach);
     std::vector<Fixed> ownFixed;
     std::vector<Fixed> fixed;
     for (std::size_t p = 0; p < count; ++p) ownFixed.push_back({own.radius[p], own.mass[p], own.material[p]});
-    share(ranks, joint.halo, ownFixed, fixed);
-    Particles& particles = joint.particles;
-    particles.id = joint.halo.ids;
+    share(ranks, all.halo, ownFixed, fixed);
+    Particles& particles = all.particles;
+    particles.id = all.halo.ids;
     particles.radius.clear();
     particles.mass.clear();
     particles.material.clear();
@@ -39,27 +39,27 @@ void findGhosts(const Ranks& ranks, const Particles& own, const std::vector<Vec3
         particles.mass.push_back(of.mass);
         particles.material.push_back(of.material);
     }
-    share(ranks, joint.halo, positions, particles.position);
+    share(ranks, all.halo, positions, particles.position);
 }
 
 void fetchGhosts(const Ranks& ranks, const std::vector<Vec3>& positions, const std::vector<Vec3>& velocities,
-                 JointParticles& joint) {
-    const Halo& halo = joint.halo;
+                 OwnAndGhosts& all) {
+    const Halo& halo = all.halo;
     const auto received = swapItems<Moving>(
         ranks, halo.routes,
         [&](std::uint32_t p) -> Moving {
             return {positions[p], velocities[p]};
         },
         ghostCounts(halo));
-    joint.velocities.resize(halo.ids.size());
-    inParallel(halo.jointOf.size(), kParticleGrain, [&](std::size_t p) {
-        joint.particles.position[halo.jointOf[p]] = positions[p];
-        joint.velocities[halo.jointOf[p]] = velocities[p];
+    all.velocities.resize(halo.ids.size());
+    inParallel(halo.combinedIndexOf.size(), kParticleGrain, [&](std::size_t p) {
+        all.particles.position[halo.combinedIndexOf[p]] = positions[p];
+        all.velocities[halo.combinedIndexOf[p]] = velocities[p];
     });
     for (std::size_t k = 0; k < halo.routes.size(); ++k)
         for (std::size_t g = 0; g < received[k].size(); ++g) {
-            joint.particles.position[halo.routes[k].ghosts[g]] = received[k][g].position;
-            joint.velocities[halo.routes[k].ghosts[g]] = received[k][g].velocity;
+            all.particles.position[halo.routes[k].ghosts[g]] = received[k][g].position;
+            all.velocities[halo.routes[k].ghosts[g]] = received[k][g].velocity;
         }
 }
 
