@@ -195,7 +195,7 @@ std::vector<std::uint8_t> RankHost::checkpoint(const Simulation& /*whole*/) {
     return bytes;
 }
 
-engine::Energy RankHost::energy(const scenes::Scene& /*scene*/, Simulation& /*whole*/) {
+engine::Energy RankHost::energy(Simulation& /*whole*/) {
     order({{"do", "energy"}});
     engine::Energy energy;
     together(ranks_, [&] { energy = engine::energy(simulation_); });

@@ -31,7 +31,7 @@ class RankHost : public tools::SimulationHost {
     void advanceToFrame(const scenes::Scene& scene, engine::Simulation& whole, int frame) override;
     void addSample(engine::ErrorSamples& samples, const engine::Simulation& whole, double frameSeconds,
                    double evaluationsOfFrame) override;
-    engine::Energy energy(const scenes::Scene& scene, engine::Simulation& whole) override;
+    engine::Energy energy(engine::Simulation& whole) override;
     /// mpirun kills its processes a second after it has sent them a signal; half of that is left to write what there
     /// is.
     double graceSeconds() const override { return 0.4; }

@@ -290,7 +290,7 @@ std::string predictedText(const Json& json) {
     return text;
 }
 
-/// Whether so many ranks pay, according to what they have of each; empty if nobody asked.
+/// The line on ranks: how fast steps are on them, and how well they are used; empty without --ranks.
 std::string ranksText(const Json& json) {
     const Json ranks = json.value("ranks", Json(nullptr));
     if (ranks.is_null()) return "";

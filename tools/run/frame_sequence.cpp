@@ -147,7 +147,7 @@ void FrameSequence::finish() {
     if (recordStop() || !report.unstable.empty()) return;
     if (folder_ != nullptr && position_ >= 0) folder_->writeCheckpoint(position_, checkpoint(), checkpointReport());
     report.stateHash = engine::stateHash(run_.simulation.particles);
-    run_.energy = host_.energy(scene_, run_.simulation);
+    run_.energy = host_.energy(run_.simulation);
 }
 
 FinishedRun FrameSequence::take() {

@@ -49,9 +49,7 @@ class SimulationHost {
     virtual double graceSeconds() const { return InterruptOptions{}.graceSeconds; }
 
     /// The energy of the whole simulation at a frame.
-    virtual engine::Energy energy(const scenes::Scene& /*scene*/, engine::Simulation& whole) {
-        return engine::energy(whole);
-    }
+    virtual engine::Energy energy(engine::Simulation& whole) { return engine::energy(whole); }
 
     virtual std::vector<std::uint8_t> checkpoint(const engine::Simulation& whole) {
         return engine::encodeCheckpoint(whole);
