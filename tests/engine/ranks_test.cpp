@@ -9,8 +9,6 @@
 #include "engine/run/checkpoint.h"
 #include "engine/run/diagnostics.h"
 #include "engine/run/redistribution.h"
-#include "engine/state/bodies.h"
-#include "engine/state/emitter_sites.h"
 #include "engine/stepping/step_cache.h"
 #include "tests/engine/runs.h"
 #include "tests/engine/thread_ranks.h"
@@ -21,28 +19,16 @@ using thread_ranks::Owner;
 
 namespace {
 
-/// A ball on a floor and a sphere, a nozzle with room to keep, a crumb far away that falls, and a world that it leaves.
+/// The busy scene with a nozzle that keeps room, and a clump far away that leaves the world.
 Setup busy(StepperKind stepper) {
-    Setup setup;
-    Material liquid = *materialPreset("liquid");
-    liquid.mass = 0.1;
-    setup.materials = {liquid};
-    setup.drag = 0.1;
-    setup.stepper = stepper;
-    setup.step = 0.002;
-    for (const Vec3& position : ballPositions(Vec3(0, 1.3, 0), 0.9, {.spacing = 0.3, .jitter = 0.05}))
-        append(setup.initial, {.position = position, .velocity = Vec3(0, -3, 0), .mass = liquid.mass});
+    Setup setup = runs::busyScene(stepper);
     for (int k = 0; k < 3; ++k)
         append(setup.initial, {.position = Vec3(-40.5, 30.0 + 0.2 * k, 0.1 * k), .velocity = Vec3(-30, 0, 0)});
-    setup.obstacles.shapes = {Plane{}, Sphere{Vec3(0, 0.2, 0), 0.4, false}};
-    Emitter emitter;
-    emitter.sites = discSites(Vec3(2, 1, 0), Vec3(-3, 1, 0), 0.3, 0.3);
-    emitter.velocity = Vec3(-3, 1, 0);
+    setup.world = BoundingBox{Vec3(-41, -50, -50), Vec3(50, 50, 50)};
+    Emitter& emitter = setup.emitters.front();
     emitter.interval = 0.05;
     emitter.pick = Pick::random;
     emitter.leastDelay = 0.01;
-    setup.emitters = {emitter};
-    setup.world = BoundingBox{Vec3(-41, -50, -50), Vec3(50, 50, 50)};
     return setup;
 }
 

@@ -5,6 +5,7 @@
 
 #include "engine/run/advance.h"
 #include "engine/state/bodies.h"
+#include "engine/state/emitter_sites.h"
 #include "engine/stepping/take_step.h"
 #include "tests/engine/clouds.h"
 
@@ -53,6 +54,27 @@ inline void addPair(engine::Setup& setup, double distance, double closingSpeed) 
                                .velocity = engine::Vec3(-side * 0.5 * closingSpeed, 0, 0),
                                .radius = setup.materials[0].radius,
                                .mass = setup.materials[0].mass});
+}
+
+/// A ball of liquid on a floor and a sphere under a nozzle: every part of the engine at once.
+inline engine::Setup busyScene(engine::StepperKind stepper) {
+    using namespace engine;
+    Setup setup;
+    Material liquid = *materialPreset("liquid");
+    liquid.mass = 0.1;
+    setup.materials = {liquid};
+    setup.drag = 0.1;
+    setup.stepper = stepper;
+    setup.step = 0.002;
+    for (const Vec3& position : ballPositions(Vec3(0, 1.5, 0), 0.9, {.spacing = 0.3, .jitter = 0.05}))
+        append(setup.initial, {.position = position, .mass = liquid.mass});
+    setup.obstacles.shapes = {Plane{}, Sphere{Vec3(0, 0.2, 0), 0.4, false}};
+    Emitter emitter;
+    emitter.sites = discSites(Vec3(2, 1, 0), Vec3(-3, 1, 0), 0.3, 0.3);
+    emitter.velocity = Vec3(-3, 1, 0);
+    emitter.interval = 0.1;
+    setup.emitters = {emitter};
+    return setup;
 }
 
 /// The state after `count` steps of the stepper in use, without audit, rejection or emission.

@@ -14,26 +14,6 @@ using namespace engine;
 
 namespace {
 
-/// A ball of liquid on a floor and a sphere under a nozzle: every part of the engine at once.
-Setup busyScene(StepperKind stepper) {
-    Setup setup;
-    Material liquid = *materialPreset("liquid");
-    liquid.mass = 0.1;
-    setup.materials = {liquid};
-    setup.drag = 0.1;
-    setup.stepper = stepper;
-    setup.step = 0.002;
-    for (const Vec3& position : ballPositions(Vec3(0, 1.5, 0), 0.9, {.spacing = 0.3, .jitter = 0.05}))
-        append(setup.initial, {.position = position, .mass = liquid.mass});
-    setup.obstacles.shapes = {Plane{}, Sphere{Vec3(0, 0.2, 0), 0.4, false}};
-    Emitter emitter;
-    emitter.sites = discSites(Vec3(2, 1, 0), Vec3(-3, 1, 0), 0.3, 0.3);
-    emitter.velocity = Vec3(-3, 1, 0);
-    emitter.interval = 0.1;
-    setup.emitters = {emitter};
-    return setup;
-}
-
 /// More particles than one thread works on, among obstacles of all kinds.
 Setup crowdAmongObstacles() {
     Setup setup;
@@ -57,7 +37,7 @@ std::string hashAfter(const Setup& setup, double time) {
 
 TEST_CASE("A run has the same hash for 1, 2, 3 and 8 threads", "[simulation]") {
     for (const StepperKind stepper : kSteppers) {
-        const Setup setup = busyScene(stepper);
+        const Setup setup = runs::busyScene(stepper);
         const std::string expected = hashAfter(setup, 0.12);
         INFO(nameOf(stepper));
         for (const std::size_t threads : {1U, 2U, 3U, 8U}) {
@@ -74,7 +54,7 @@ TEST_CASE("A run has the same hash for 1, 2, 3 and 8 threads", "[simulation]") {
 TEST_CASE("Steps are announced, trial runs' too, and can be stopped", "[simulation]") {
     for (const StepperKind stepper : {StepperKind::symplecticEuler, StepperKind::leapfrog, StepperKind::automatic}) {
         INFO(static_cast<int>(stepper));
-        const Setup setup = busyScene(stepper);
+        const Setup setup = runs::busyScene(stepper);
         Simulation simulation = start(setup);
         int announced = 0;
         simulation.beforeStep = [&](const Simulation&) { ++announced; };
@@ -108,11 +88,11 @@ TEST_CASE("Obstacles that threads share out give the same bits for any number of
 TEST_CASE("The bits of a run are the same in every build and on every machine", "[simulation]") {
     // These values are not correct in themselves, but promised: a change that means to alter the bits says so and
     // records new ones.
-    CHECK(hashAfter(busyScene(StepperKind::symplecticEuler), 0.2) == "b9c371ef20cefee4");
-    CHECK(hashAfter(busyScene(StepperKind::velocityVerlet), 0.2) == "eac0c8b76c7caf2d");
-    CHECK(hashAfter(busyScene(StepperKind::implicitDamping), 0.2) == "75b4e59d0815dc5d");
-    CHECK(hashAfter(busyScene(StepperKind::linearlyImplicit), 0.2) == "8dd65dce87cdee56");
-    CHECK(hashAfter(busyScene(StepperKind::automatic), 0.2) == "c30f64e8bc106a4a");
+    CHECK(hashAfter(runs::busyScene(StepperKind::symplecticEuler), 0.2) == "b9c371ef20cefee4");
+    CHECK(hashAfter(runs::busyScene(StepperKind::velocityVerlet), 0.2) == "eac0c8b76c7caf2d");
+    CHECK(hashAfter(runs::busyScene(StepperKind::implicitDamping), 0.2) == "75b4e59d0815dc5d");
+    CHECK(hashAfter(runs::busyScene(StepperKind::linearlyImplicit), 0.2) == "8dd65dce87cdee56");
+    CHECK(hashAfter(runs::busyScene(StepperKind::automatic), 0.2) == "c30f64e8bc106a4a");
 }
 
 TEST_CASE("Frame times are hit exactly in equal steps no longer than the set-up's", "[simulation]") {
@@ -147,7 +127,7 @@ TEST_CASE("A scene without particles runs", "[simulation]") {
 }
 
 TEST_CASE("The grid and the paper's O(n^2) method agree", "[simulation]") {
-    Setup setup = busyScene(StepperKind::velocityVerlet);
+    Setup setup = runs::busyScene(StepperKind::velocityVerlet);
     Simulation onGrid = start(setup);
     setup.forces = ForceMethod::reference;
     Simulation byPairs = start(setup);
@@ -160,7 +140,7 @@ TEST_CASE("The grid and the paper's O(n^2) method agree", "[simulation]") {
 }
 
 TEST_CASE("Emissions are counted and their particles have ids in order", "[simulation]") {
-    Simulation simulation = start(busyScene(StepperKind::velocityVerlet));
+    Simulation simulation = start(runs::busyScene(StepperKind::velocityVerlet));
     const std::size_t bodies = simulation.setup.initial.count();
     advance(simulation, 0.5);
     CHECK(birthCount(simulation) == simulation.particles.count() - bodies);
@@ -169,7 +149,7 @@ TEST_CASE("Emissions are counted and their particles have ids in order", "[simul
 }
 
 TEST_CASE("An unstable run names particle, time and what to change", "[simulation]") {
-    Setup setup = busyScene(StepperKind::symplecticEuler);
+    Setup setup = runs::busyScene(StepperKind::symplecticEuler);
     setup.materials[0].repulsion = 1e12;
     setup.step = 0.01;
     Simulation simulation = start(setup);
