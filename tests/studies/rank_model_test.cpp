@@ -61,3 +61,25 @@ TEST_CASE("ghosts in the middle of many ranks are those of a lattice", "[rank-mo
     const double counted = countedGhosts(edge, 1.1 * cutoff);
     CHECK(stepOnRanks({all, kNeighbors, 1.0}, ranks).ghosts == Approx(counted).epsilon(0.1));
 }
+
+TEST_CASE("the numbers of docs/beyond-one-machine.md are those of the model", "[rank-model]") {
+    constexpr double kSeconds = 0.236e-6;  // of a particle on one thread
+    struct Row {
+        int ranks;
+        double ghosts, weak, weakEfficiency;  ///< 50,000 particles each: number, ms
+        double strong, strongEfficiency;      ///< 10 million particles in all: ms
+    };
+    const auto near = [](double number) { return Approx(number).epsilon(0.01); };
+    for (const Row& row : {Row{1, 0, 11.8, 1, 2360, 1}, Row{2, 4221, 15.2, 0.78, 1482, 0.80},
+                           Row{8, 10631, 15.8, 0.75, 376, 0.78}, Row{64, 16469, 16.3, 0.72, 49.1, 0.75},
+                           Row{512, 19523, 16.7, 0.71, 6.95, 0.66}, Row{1000, 20145, 16.7, 0.71, 3.88, 0.61}}) {
+        INFO(row.ranks << " ranks");
+        const StepOnRanks weak = stepOnRanks({5e4 * row.ranks, 45.0, kSeconds * 5e4 * row.ranks}, row.ranks);
+        const StepOnRanks strong = stepOnRanks({1e7, 45.0, kSeconds * 1e7}, row.ranks);
+        if (row.ranks > 1) CHECK(weak.ghosts == near(row.ghosts));
+        if (row.ranks > 1) CHECK(1e3 * weak.seconds == near(row.weak));
+        CHECK(1e3 * strong.seconds == near(row.strong));
+        CHECK(weak.efficiency == near(row.weakEfficiency));
+        CHECK(strong.efficiency == near(row.strongEfficiency));
+    }
+}
