@@ -82,4 +82,6 @@ TEST_CASE("the numbers of docs/beyond-one-machine.md are those of the model", "[
         CHECK(weak.efficiency == near(row.weakEfficiency));
         CHECK(strong.efficiency == near(row.strongEfficiency));
     }
+    CHECK(1e3 * stepOnRanks({140647.0, 45.0, 33.1e-3}, 2).seconds == near(21.2));
+    CHECK(1e3 * stepOnRanks({94000.0, 45.0, 2.0 * 10.1e-3}, 2).seconds == near(13.0));
 }
