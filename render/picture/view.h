@@ -13,6 +13,7 @@
 
 #include "render/picture/overlay.h"
 #include "render/picture/shading_model.h"
+#include "render/picture/solid_mesh.h"
 
 namespace render {
 
@@ -112,6 +113,7 @@ struct View {
     std::optional<Ground> ground;
     std::vector<SphereObstacle> sphereObstacles;
     std::vector<BoxObstacle> boxObstacles;
+    std::vector<MeshObstacle> meshObstacles;
     std::vector<Edge> edges;
     Overlay overlay;                         ///< text and scales, drawn last over the finished picture
     std::vector<std::uint32_t> particleIds;  ///< number of each particle, for Layers::ids; empty if that is not drawn
