@@ -48,7 +48,7 @@ const std::map<std::string, std::set<std::string>> kForbiddenHeaders = {
 const std::map<std::string, std::vector<std::string>> kRooms = {
     {"engine",
      {"engine/run", "engine/error_control", "engine/stepping", "engine/forces", "engine/neighbors", "engine/state",
-      "engine/ranks", "engine/obstacles", "engine/force_law", "engine/core"}},
+      "engine/ranks", "engine/obstacles", "engine/shapes", "engine/force_law", "engine/core"}},
     {"render",
      {"render", "render/opengl", "render/opengl/context", "render/cpu", "render/cpu/shading", "render/cpu/lighting",
       "render/cpu/metaballs", "render/cpu/raster", "render/mesh", "render/prepare", "render/overlay", "render/output",
