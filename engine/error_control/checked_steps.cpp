@@ -7,6 +7,7 @@
 #include "engine/error_control/step_control.h"
 #include "engine/error_control/step_cost.h"
 #include "engine/state/state_checks.h"
+#include "engine/stepping/obstacle_loads.h"
 #include "engine/stepping/population.h"
 #include "engine/stepping/step_audit.h"
 #include "engine/stepping/step_cache.h"
@@ -22,24 +23,24 @@ constexpr std::uint32_t kAcceptedBeforeLonger = 8;
 /// which no step is accepted. Chosen.
 constexpr std::size_t kHistory = 4;
 
-/// Computes and records the energy and the forces of the present state.
-void establishEnergy(Simulation& simulation) {
+/// Computes and records the energy and the forces of the present state, which is that at a time (s).
+void establishEnergy(Simulation& simulation, double time) {
     requireValid(simulation, 0.0);
     Particles& particles = simulation.particles;
     const double pairEnergy =
         simulation.cache->evaluator.evaluateFree(particles, particles.velocity, simulation.cache->forces);
     ++simulation.steps.forceEvaluations;
     simulation.cache->forcesCurrent = true;
-    recordEnergy(simulation, pairEnergy);
+    recordEnergy(simulation, pairEnergy, time);
 }
 
 /// Computes the energy after the last step of an interval where the stepper does not. The implicit steppers know the
 /// energy in the middle of a step only, but the state at the end of an interval is used outside and never taken back,
 /// so the last step is also audited by the energy at its end.
-void checkIntervalEnd(Simulation& simulation) {
+void checkIntervalEnd(Simulation& simulation, double time) {
     if (isVerlet(simulation.stepper) || std::isnan(*simulation.cache->energy)) return;
     if (!isValid(simulation)) return markInvalid(simulation);
-    establishEnergy(simulation);
+    establishEnergy(simulation, time);
 }
 
 /// The latest time at which the next step must end, s: the requested time, or an emission before it. A step across an
@@ -78,7 +79,8 @@ bool advanceChecked(Simulation& simulation, double time, double longest, StepLim
     History history;
     int rejectedInRow = 0;
     emitDue(simulation);
-    if (!simulation.cache->energy) establishEnergy(simulation);
+    simulation.cache->work = simulation.cache->workAtEnergy = 0.0;  // as in a run that is resumed here
+    if (!simulation.cache->energy) establishEnergy(simulation, simulation.time);
     const double passesBefore = forceEvaluationsOf(simulation);
     while (simulation.time < time) {
         if (forceEvaluationsOf(simulation) - passesBefore > mostEvaluations) return false;
@@ -92,7 +94,7 @@ bool advanceChecked(Simulation& simulation, double time, double longest, StepLim
         const double h = remaining / count;
         history.add(simulation);
         takeStep(simulation, h);
-        if (count == 1.0 && stop == time) checkIntervalEnd(simulation);
+        if (count == 1.0 && stop == time) checkIntervalEnd(simulation, stop);
         std::optional<StepLimit> rejection = rejectionReason(simulation, history.latest());
         std::optional<double> estimate;
         if (errors != nullptr && !rejection) {
@@ -105,10 +107,11 @@ bool advanceChecked(Simulation& simulation, double time, double longest, StepLim
             history.goBack(simulation, ++rejectedInRow % 2 == 0);
             ++simulation.steps.rejected;
             restriction = {0.5 * h, *rejection, 0};
-            if (!isVerlet(simulation.stepper)) establishEnergy(simulation);
+            if (!isVerlet(simulation.stepper)) establishEnergy(simulation, simulation.time);
             continue;
         }
         rejectedInRow = 0;
+        acceptLoads(simulation);
         const StepLimit chosen = errors != nullptr && errors->steps.step >= longest ? StepLimit::frame : reason;
         record(simulation.steps, h, restriction.seconds < wanted ? restriction.reason : chosen, simulation.stepper);
         if (estimate) {

@@ -95,15 +95,16 @@ class SimdContacts {
         touch(height, normal, sphere.literalRepulsor ? sphere.radius : law_.radius);
     }
 
-    /// A box has faces, edges and corners, so the force on each particle near it is computed by the scalar code.
-    void meet(const Box& box) {
+    /// A solid with edges and corners: the force on each particle near it is computed by the scalar code.
+    template <class Shape>
+    void meet(const Shape& shape) {
         std::array<Vec3, kMost> force;
         hn::StoreInterleaved3(force_.x, force_.y, force_.z, kTag, force.front().data());
         for (std::size_t lane = 0; lane < lanes(); ++lane) {
             const std::size_t p = first_ + lane;
-            if (!mayReach(box, particles_.position[p], particles_.radius[p])) continue;
-            const Probe probe = probeOf(materials_, particles_, p, velocities_[p]);
-            forEachSurface(box, probe.position, law_.radius, [&](const Surface& surface) {
+            if (!mayReach(shape, particles_.position[p], particles_.radius[p])) continue;
+            const Probe probe = probeOf(materials_, particles_, p, velocities_[p], 0.0);
+            forEachSurface(shape, probe.position, law_.radius, [&](const Surface& surface) {
                 if (surface.height < probe.radius)
                     addForce(surface, contactWith(surface, obstacles_, probe), probe, force[lane]);
             });

@@ -3,6 +3,7 @@
 // them is stopped here, whatever the step.
 #pragma once
 
+#include "engine/obstacles/contact_loads.h"
 #include "engine/obstacles/obstacles.h"
 
 namespace engine {
@@ -14,8 +15,11 @@ enum class Arrival {
 };
 
 /// Moves a particle along its velocity for a duration (s). Where its center arrives at the surface of an obstacle, the
-/// velocity changes, by Coulomb friction too, and the particle goes on for the rest of the duration. An obstacle in
-/// which the center already lies does not hold it. Kinetic energy never grows. Returns how often a surface held it.
-int moveAmongBarriers(const Obstacles& obstacles, Probe& particle, double duration, Arrival arrival);
+/// velocity relative to the surface changes, by Coulomb friction too, and the particle goes on for the rest of the
+/// duration. An obstacle in which the center already lies does not hold it. Kinetic energy, in the frame of the
+/// surface, never grows. Returns how often a surface held it.
+/// @param loads  where the loads are recorded, for obstacles of which they are; may be null
+int moveAmongBarriers(const Obstacles& obstacles, Probe& particle, double duration, Arrival arrival,
+                      ContactLoads* loads = nullptr);
 
 }  // namespace engine

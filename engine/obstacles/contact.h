@@ -135,6 +135,8 @@ inline Contact contactWith(const Surface& surface, const Obstacles& obstacles, c
     contact.friction = surface.wall->friction.value_or(probe.friction);
     if (surface.height < probe.radius) setRepulsion(contact, surface, obstacles.gravity, probe);
     if (surface.wall->adhesion > 0.0) setAdhesion(contact, surface.height, surface.wall->adhesion, probe.radius);
+    contact.pressure *= surface.slope;
+    contact.adhesion *= surface.slope;
     return contact;
 }
 
@@ -158,6 +160,11 @@ inline double contactEnergy(const Contact& contact) {
     return pairEnergy(repulsor.distance, repulsor.constants) + repulsorForceOf(repulsor, 0.0) * repulsor.beyondCore;
 }
 
+/// Velocity of a particle relative to the material of a surface, m/s.
+inline Vec3 relativeVelocity(const Probe& probe, const Surface& surface) {
+    return probe.velocity - surface.velocity;
+}
+
 /// Energy of a particle at a surface of an obstacle, in joules; 0 where the surface does not act on it.
 inline double surfaceEnergy(const Surface& surface, const Obstacles& obstacles, const Probe& probe) {
     const double reach = contactReach(*surface.wall, probe.radius);
@@ -173,10 +180,19 @@ inline Vec3 slipVelocity(const Vec3& velocity, const Vec3& normal) {
 /// would take half of the time.
 [[gnu::always_inline]] inline void addForce(const Surface& surface, const Contact& contact, const Probe& probe,
                                             Vec3& force) {
-    force += normalForce(contact, dot(probe.velocity, surface.normal)) * surface.normal;
+    const Vec3 velocity = relativeVelocity(probe, surface);
+    force += normalForce(contact, dot(velocity, surface.normal)) * surface.normal;
     if (contact.friction == 0.0) return;
-    const Vec3 slip = slipVelocity(probe.velocity, surface.normal);
+    const Vec3 slip = slipVelocity(velocity, surface.normal);
     force -= slipDamping(contact.friction, pressureForce(contact), squaredLength(slip)) * slip;
+}
+
+/// Records the load of a contact, if that is wanted of its obstacle.
+/// @param impulse  that the particle gets, N s
+inline void recordLoad(const Surface& surface, const Vec3& impulse, const Obstacles& obstacles, const Probe& probe,
+                       ContactLoads& loads) {
+    if (!isRecorded(obstacles, surface.obstacle)) return;
+    loads.push_back({surface.obstacle, impulse, footOf(surface, probe.position), surface.velocity, probe.time});
 }
 
 /// Damping of a contact along the surface's normal, in kg/s.

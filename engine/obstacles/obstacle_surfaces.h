@@ -1,5 +1,5 @@
-// The faces of obstacles as seen from a particle: a signed distance, a normal and a repulsor behind the face, so that
-// one contact law serves all shapes. contact.h has the law.
+// The faces of obstacles as seen from a particle: a signed distance, a normal, a velocity and a repulsor behind the
+// face, so that one contact law serves all shapes. contact.h has the law.
 #pragma once
 
 #include <cmath>
@@ -21,10 +21,18 @@ struct Surface {
     double halfThickness = std::numeric_limits<double>::infinity();  ///< half the depth of the solid, m
     double curvature = 0.0;                                          ///< 1/radius of a sphere, otherwise 0; 1/m
     const WallSurface* wall = &kPlainWall;                           ///< how it answers under the scaled wall law
+    double slope = 1.0;                                              ///< change of the height along the normal
+    Vec3 velocity = Vec3::Zero();                                    ///< of the face's material, m/s
+    std::size_t obstacle = 0;                                        ///< index of the obstacle that it belongs to
 };
 
+/// The point of a surface that is closest to a particle's center, which is at a point (m).
+inline Vec3 footOf(const Surface& surface, const Vec3& point) {
+    return point - surface.height * surface.normal;
+}
+
 // The functions forEachSurface(shape, point, repulsorRadius, visit) call visit(Surface) for each face of a shape that
-// can act on a particle at the point (m), at any distance.
+// can act on a particle at the point (m, in the shape's coordinates), at any distance.
 
 template <class Visit>
 void forEachSurface(const Plane& plane, const Vec3& point, double repulsorRadius, const Visit& visit) {
@@ -70,40 +78,48 @@ void forEachSurface(const Sphere& sphere, const Vec3& point, double repulsorRadi
                   sphere.radius, 1.0 / sphere.radius});
 }
 
+/// Where a grid has no gradient, far from the surface, the slope is zero.
+template <class Distances, class Visit>
+void forEachSurface(const DistanceSolid<Distances>& solid, const Vec3& point, double repulsorRadius,
+                    const Visit& visit) {
+    const SignedDistance distance = solid.at(point);
+    Surface surface{distance.value, Vec3::UnitY(), repulsorRadius, 0.5 * solid.thickness};
+    surface.slope = std::sqrt(squaredLength(distance.gradient));
+    if (surface.slope > 0.0) surface.normal = distance.gradient / surface.slope;
+    visit(surface);
+}
+
+/// Whether a shape is known by its signed distance alone: no formula tells where a straight path arrives at it.
+template <class Shape>
+inline constexpr bool isKnownByDistance = false;
+template <class Distances>
+inline constexpr bool isKnownByDistance<DistanceSolid<Distances>> = true;
+
+/// The thickness of a shape at its thinnest place, m; infinite where it has no far side.
+inline double thicknessOf(const Box& box) {
+    return (box.maximum - box.minimum).minCoeff();
+}
+
+inline double thicknessOf(const Sphere& sphere) {
+    return 2.0 * sphere.radius;
+}
+
+template <class Distances>
+double thicknessOf(const DistanceSolid<Distances>& solid) {
+    return solid.thickness;
+}
+
+inline double thicknessOf(const Plane& /*plane*/) {
+    return std::numeric_limits<double>::infinity();
+}
+
+inline double thicknessOf(const Container& /*walls*/) {
+    return std::numeric_limits<double>::infinity();
+}
+
 /// How an obstacle, given by its index, answers particles under the scaled wall law.
 inline const WallSurface& wallSurfaceOf(const Obstacles& obstacles, std::size_t obstacle) {
     return obstacle < obstacles.surfaces.size() ? obstacles.surfaces[obstacle] : kPlainWall;
-}
-
-/// Calls visit(index) for all obstacles that have a surface nearer to a point than `reach` (m), and maybe for others.
-/// Returns a lower bound on the distances of the obstacles that are left out, m.
-template <class Visit>
-double forEachNear(const Obstacles& obstacles, const Vec3& point, double reach, const Visit& visit) {
-    if (obstacles.index.solids.isEmpty()) {
-        for (std::size_t k = 0; k < obstacles.shapes.size(); ++k) visit(k);
-        return std::numeric_limits<double>::infinity();
-    }
-    for (const std::uint32_t k : obstacles.index.unbounded) visit(k);
-    obstacles.index.solids.visitNear(point, reach, [&](std::uint32_t box) { visit(obstacles.index.obstacleOf[box]); });
-    return reach;
-}
-
-/// Calls visit(Surface) for all surfaces that are nearer to a point than `reach` (m), and maybe for others. Returns a
-/// lower bound on the distances of those that are left out, m.
-template <class Visit>
-double forEachSurface(const Obstacles& obstacles, const Vec3& point, double reach, const Visit& visit) {
-    return forEachNear(obstacles, point, reach, [&](std::size_t k) {
-        const WallSurface* const wall = &wallSurfaceOf(obstacles, k);
-        std::visit(
-            [&](const auto& shape) {
-                forEachSurface(
-                    shape, point, obstacles.law.radius, [&](Surface surface) __attribute__((always_inline)) {
-                        surface.wall = wall;
-                        visit(surface);
-                    });
-            },
-            obstacles.shapes[k]);
-    });
 }
 
 /// Whether a shape may have a surface within a distance `reach` (m) of a point. A cheap test, without a square root or
@@ -119,9 +135,66 @@ bool mayReach(const Shape& shape, const Vec3& point, double reach) {
         return squaredLength(point - closest) < kSlack * reach * reach;
     } else if constexpr (std::is_same_v<Shape, Container>) {
         return ((point - shape.minimum).array() < reach).any() || ((shape.maximum - point).array() < reach).any();
+    } else if constexpr (isKnownByDistance<Shape>) {
+        const Vec3 closest = point.cwiseMax(shape.bounds.low).cwiseMin(shape.bounds.high);
+        return squaredLength(point - closest) < kSlack * reach * reach;
     } else {
         return true;
     }
+}
+
+/// Calls visit(index) for all obstacles that have a surface nearer to a point than `reach` (m), and maybe for others.
+/// Returns a lower bound on the distances of the obstacles that are left out, m.
+template <class Visit>
+double forEachNear(const Obstacles& obstacles, const Vec3& point, double reach, const Visit& visit) {
+    if (obstacles.index.solids.isEmpty()) {
+        for (std::size_t k = 0; k < obstacles.shapes.size(); ++k) visit(k);
+        return std::numeric_limits<double>::infinity();
+    }
+    for (const std::uint32_t k : obstacles.index.unbounded) visit(k);
+    obstacles.index.solids.visitNear(point, reach, [&](std::uint32_t box) { visit(obstacles.index.obstacleOf[box]); });
+    return reach;
+}
+
+/// Calls visit(Surface) for the surfaces of an obstacle, given by its index, that is turned or moves, if at a time (s)
+/// it may have one within a distance `reach` (m) of a point.
+template <class Visit>
+void forEachPlacedSurface(const Obstacles& obstacles, std::size_t obstacle, const Vec3& point, double time,
+                          double reach, const Visit& visit) {
+    if (time >= obstacles.motions[obstacle].until) return;
+    const Pose pose = poseOf(obstacles, obstacle, time);
+    const Vec3 inShape = pose.toShape(point);
+    std::visit(
+        [&](const auto& shape) {
+            if (!mayReach(shape, inShape, reach)) return;
+            forEachSurface(shape, inShape, obstacles.law.radius, [&](Surface surface) {
+                surface.normal = pose.rotation * surface.normal;
+                surface.velocity = pose.velocityAt(footOf(surface, point));
+                visit(surface);
+            });
+        },
+        obstacles.shapes[obstacle]);
+}
+
+/// Calls visit(Surface) for all surfaces that are nearer to a point than `reach` (m) at a time (s), and maybe for
+/// others. Returns a lower bound on the distances of those that are left out, m.
+template <class Visit>
+double forEachSurface(const Obstacles& obstacles, const Vec3& point, double time, double reach, const Visit& visit) {
+    return forEachNear(obstacles, point, reach, [&](std::size_t k) {
+        const WallSurface* const wall = &wallSurfaceOf(obstacles, k);
+        const auto visitHere = [&](Surface surface) __attribute__((always_inline)) {
+            surface.wall = wall;
+            surface.obstacle = k;
+            visit(surface);
+        };
+        if (isPlaced(obstacles, k)) {
+            constexpr double kAnyDistance = std::numeric_limits<double>::infinity();
+            forEachPlacedSurface(obstacles, k, point, time, kAnyDistance, visitHere);
+            return;
+        }
+        std::visit([&](const auto& shape) { forEachSurface(shape, point, obstacles.law.radius, visitHere); },
+                   obstacles.shapes[k]);
+    });
 }
 
 /// Distance of a particle's center from a surface below which the surface acts on the particle, m: the particle's
@@ -135,20 +208,22 @@ constexpr double largestContactReach(double radius) {
     return 2.0 * radius;
 }
 
-/// Calls visit(Surface) for every surface that acts on a particle of this radius (m).
+/// Calls visit(Surface) for every surface that acts at a time (s) on a particle of this radius (m).
 template <class Visit>
-void forEachTouched(const Obstacles& obstacles, const Vec3& point, double radius, const Visit& visit) {
+void forEachTouched(const Obstacles& obstacles, const Vec3& point, double time, double radius, const Visit& visit) {
     forEachNear(obstacles, point, largestContactReach(radius), [&](std::size_t k) {
         const WallSurface& wall = wallSurfaceOf(obstacles, k);
         const double reach = contactReach(wall, radius);
+        const auto visitTouched = [&](Surface surface) {
+            if (surface.height >= reach) return;
+            surface.wall = &wall;
+            surface.obstacle = k;
+            visit(surface);
+        };
+        if (isPlaced(obstacles, k)) return forEachPlacedSurface(obstacles, k, point, time, reach, visitTouched);
         std::visit(
             [&](const auto& shape) {
-                if (!mayReach(shape, point, reach)) return;
-                forEachSurface(shape, point, obstacles.law.radius, [&](Surface surface) {
-                    if (surface.height >= reach) return;
-                    surface.wall = &wall;
-                    visit(surface);
-                });
+                if (mayReach(shape, point, reach)) forEachSurface(shape, point, obstacles.law.radius, visitTouched);
             },
             obstacles.shapes[k]);
     });

@@ -1,15 +1,22 @@
-// Fixed obstacles: their shapes, their surfaces, and how they answer particles. The shapes are plain data;
+// Obstacles: their shapes, their surfaces, how they move, and how they answer particles. The shapes are plain data;
 // obstacle_surfaces.h computes their distance from a particle, contact.h the force.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <variant>
 #include <vector>
 
 #include "engine/core/bounding_box.h"
 #include "engine/obstacles/bounding_box_tree.h"
+#include "engine/obstacles/contact_loads.h"
+#include "engine/obstacles/motion.h"
+#include "engine/shapes/distance_grid.h"
+#include "engine/shapes/revolution.h"
 
 namespace engine {
 
@@ -38,10 +45,36 @@ struct Sphere {
     bool literalRepulsor = false;  ///< repulsor with the sphere's radius and center, as in the paper
 };
 
-using Obstacle = std::variant<Plane, Container, Box, Sphere>;
+/// A solid that is known by the signed distance of any point from its surface.
+template <class Distances>
+struct DistanceSolid {
+    std::shared_ptr<const Distances> distances;  ///< in coordinates of their own
+    Vec3 origin = Vec3::Zero();                  ///< of these coordinates, m
+    BoundingBox bounds;                          ///< of the solid, m
+    double thickness = 0.0;                      ///< at the thinnest place, m
 
-/// The box around an obstacle; none around a plane, which has no end.
+    SignedDistance at(const Vec3& point) const { return distances->at(point - origin); }
+};
+
+/// A solid of revolution around an axis parallel to y through its origin.
+using RevolutionSolid = DistanceSolid<Revolution>;
+
+/// A solid bounded by a mesh, from distances on a grid.
+using MeshSolid = DistanceSolid<DistanceGrid>;
+
+using Obstacle = std::variant<Plane, Container, Box, Sphere, RevolutionSolid, MeshSolid>;
+
+/// A solid of revolution with this origin (m).
+RevolutionSolid revolutionSolid(Revolution revolution, const Vec3& origin);
+
+/// The solid of a distance grid with this origin (m).
+MeshSolid meshSolid(DistanceGrid grid, const Vec3& origin);
+
+/// The box around a shape, in its own coordinates; none around a plane, which has no end.
 std::optional<BoundingBox> boundsOf(const Obstacle& obstacle);
+
+/// The box in the scene around a box in the coordinates of a shape that has this pose.
+BoundingBox boundsIn(const Pose& pose, const BoundingBox& box);
 
 /// The constants of the force between particles and repulsors (section 3.2 of the paper), the same for all obstacles.
 struct RepulsorLaw {
@@ -80,7 +113,14 @@ enum class WallLaw {
 struct ObstacleIndex {
     BoundingBoxTree solids;                 ///< of the boxes and spheres
     std::vector<std::uint32_t> obstacleOf;  ///< the obstacle that each box of the tree stands for
-    std::vector<std::uint32_t> unbounded;   ///< planes and containers: what they are the surface of has no end
+    /// Those that are looked at everywhere: planes and containers, whose solid has no end, and what is turned or moves.
+    std::vector<std::uint32_t> unbounded;
+};
+
+/// The poses of all obstacles at a time; kept, because most particles ask for the same moment.
+struct PosesAt {
+    double time = std::numeric_limits<double>::quiet_NaN();  ///< s
+    std::vector<Pose> poses;
 };
 
 struct Obstacles {
@@ -91,7 +131,46 @@ struct Obstacles {
     std::vector<WallSurface>
         surfaces;          ///< of the shapes, in their order, for scaled walls; default where there is none
     double gravity = 0.0;  ///< size of the gravity under which particles lie on scaled walls, m/s^2
+    /// Of the shapes, in their order; empty where all shapes stay where they are given. Scaled walls alone may move.
+    std::vector<Motion> motions;
+    /// For each shape whether its loads are recorded; empty where none are. Those of obstacles in motion must be, since
+    /// the audit of steps needs their work.
+    std::vector<bool> areRecorded;
+    std::array<PosesAt, 2> kept;  ///< poses at the start and at the end of a step; place() fills them in
 };
+
+/// Whether an obstacle, given by its index, is turned or moves.
+inline bool isPlaced(const Obstacles& obstacles, std::size_t obstacle) {
+    return !obstacles.motions.empty() && !obstacles.motions[obstacle].isIdentity();
+}
+
+/// Has the loads of all obstacles in motion recorded.
+void recordInMotion(Obstacles& obstacles);
+
+/// Whether any obstacle moves or is taken away.
+bool areInMotion(const Obstacles& obstacles);
+
+/// Whether the loads of an obstacle, given by its index, are recorded.
+inline bool isRecorded(const Obstacles& obstacles, std::size_t obstacle) {
+    return !obstacles.areRecorded.empty() && obstacles.areRecorded[obstacle];
+}
+
+/// Keeps the poses at the start and at the end of a step (s), between which particles are about to be moved.
+void place(Obstacles& obstacles, double from, double to);
+
+/// The pose of an obstacle, given by its index, at a time (s).
+inline Pose poseOf(const Obstacles& obstacles, std::size_t obstacle, double time) {
+    for (const PosesAt& kept : obstacles.kept)
+        if (kept.time == time) return kept.poses[obstacle];
+    return poseAt(obstacles.motions[obstacle], time);
+}
+
+/// The point about which an obstacle's torque is taken, at a time (s): its pivot, m.
+Vec3 pivotAt(const Obstacles& obstacles, std::size_t obstacle, double time);
+
+/// An upper bound on the speed of the surfaces of all obstacles between two times (s), m/s; infinite where something
+/// without end turns.
+double fastestSurface(const Obstacles& obstacles, double from, double to);
 
 /// The index of these shapes, which are named by their positions in the vector.
 ObstacleIndex indexOf(const Obstacles& obstacles);
@@ -109,6 +188,7 @@ struct Probe {
     double mass = 1.0;             ///< kg
     double repulsion = 0.01;       ///< strength b1 of the repulsion of the particle's material, N m^4
     double damping = 1.0;          ///< damping coefficient b_d of the particle's material, kg/s
+    double time = 0.0;             ///< s
 };
 
 /// Force of the obstacles on a particle, and the particle's energy at them.
@@ -119,6 +199,9 @@ struct ContactSums {
 
 /// Sums force and energy over all obstacles that a particle touches; zero where it touches none. Planes push along
 /// their normal however deep the particle is.
-ContactSums sumContacts(const Obstacles& obstacles, const Probe& probe);
+/// @param loads    where the loads are recorded, for obstacles of which they are; may be null
+/// @param seconds  for which the force acts, s; for the loads
+ContactSums sumContacts(const Obstacles& obstacles, const Probe& probe, ContactLoads* loads = nullptr,
+                        double seconds = 0.0);
 
 }  // namespace engine

@@ -15,7 +15,10 @@ Simulation start(const Setup& setup, const Ranks& ranks) {
     Simulation simulation;
     simulation.setup = setup;
     simulation.ranks = &ranks;
-    simulation.setup.obstacles.index = indexOf(setup.obstacles);
+    Obstacles& obstacles = simulation.setup.obstacles;
+    obstacles.index = indexOf(obstacles);
+    recordInMotion(obstacles);
+    if (!obstacles.areRecorded.empty()) simulation.loads.resize(obstacles.shapes.size());
     simulation.stepper = setup.stepper == StepperKind::automatic ? StepperKind::velocityVerlet : setup.stepper;
     simulation.cache->evaluator = ForceEvaluator(forceFieldOf(simulation.setup), setup.forces, setup.precision, ranks);
     simulation.particles = setup.initial;

@@ -20,7 +20,7 @@ static_assert(std::endian::native == std::endian::little, "checkpoints are littl
 
 /// Version of the checkpoint format: kCheckpointMark in ASCII and a digit or capital, another for every change of
 /// what is stored.
-constexpr std::uint64_t kFormat = 0x42504B434C424C47;
+constexpr std::uint64_t kFormat = 0x43504B434C424C47;
 
 constexpr std::size_t kChecksumBytes = 8;
 
@@ -168,6 +168,10 @@ void exchangeCommon(Archive& archive, State& simulation) {
     exchangeAutomatic(archive, simulation.automatic);
     exchangeStatistics(archive, simulation.steps);
     archive(simulation.wallDepths.deepest, simulation.wallDepths.centersOutside);
+    for (auto& load : simulation.loads) {
+        for (int axis = 0; axis < 3; ++axis) archive(load.impulse[axis], load.angularImpulse[axis]);
+        archive(load.work);
+    }
 }
 
 /// Passes on everything but the neighbor list.
@@ -183,7 +187,7 @@ void exchange(Archive& archive, State& simulation) {
 std::uint64_t shapeOf(const Simulation& simulation) {
     std::uint64_t hash = fnv1a(simulation.setup.materials.size(), kFormat);
     for (const EmitterState& state : simulation.emitters) hash = fnv1a(state.schedules.size(), hash);
-    return hash;
+    return fnv1a(simulation.loads.size(), hash);
 }
 
 void require(bool condition, const char* otherwise) {

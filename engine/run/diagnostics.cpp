@@ -11,21 +11,21 @@
 #include "engine/stepping/step_cache.h"
 
 namespace engine {
-Energy energy(ForceEvaluator& evaluator, const Particles& particles, const Ranks& ranks) {
+Energy energy(ForceEvaluator& evaluator, const Particles& particles, double time, const Ranks& ranks) {
     const ForceField& field = evaluator.forceField();
     const double pairs = evaluator.pairEnergyGrid(particles);
     const auto [kinetic, contacts, gravity] = exactSums<3>(ranks, particles.count(), [&](std::size_t p) {
         const Vec3& x = particles.position[p];
         const Vec3& v = particles.velocity[p];
         return std::array{0.5 * particles.mass[p] * squaredLength(v),
-                          sumContacts(field.obstacles, probeOf(field.materials, particles, p, v)).energy,
+                          sumContacts(field.obstacles, probeOf(field.materials, particles, p, v, time)).energy,
                           -particles.mass[p] * dot(field.gravity, x)};
     });
     return {.kinetic = kinetic, .pairs = pairs, .contacts = contacts, .gravity = gravity};
 }
 
 Energy energy(Simulation& simulation) {
-    return energy(simulation.cache->evaluator, simulation.particles, *simulation.ranks);
+    return energy(simulation.cache->evaluator, simulation.particles, simulation.time, *simulation.ranks);
 }
 
 Vec3 linearMomentum(const Particles& particles) {

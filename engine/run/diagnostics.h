@@ -20,7 +20,9 @@ struct Energy {
 };
 
 /// Energy of a set of particles under the force law of an evaluator.
-Energy energy(ForceEvaluator& evaluator, const Particles& particles, const Ranks& ranks = Ranks::alone());
+/// @param time  at which the obstacles are where they are, s
+Energy energy(ForceEvaluator& evaluator, const Particles& particles, double time = 0.0,
+              const Ranks& ranks = Ranks::alone());
 
 /// Energy of the present state of a simulation.
 Energy energy(Simulation& simulation);

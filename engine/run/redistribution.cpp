@@ -154,6 +154,7 @@ void copyCommon(const Simulation& simulation, Simulation& whole) {
     whole.automatic = simulation.automatic;
     whole.steps = simulation.steps;
     whole.wallDepths = simulation.wallDepths;
+    whole.loads = simulation.loads;
     whole.particles.nextId = simulation.particles.nextId;
 }
 

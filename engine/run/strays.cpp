@@ -59,7 +59,9 @@ std::uint64_t strayCount(const Simulation& simulation) {
         const Vec3& v = particles.velocity[p];
         const Vec3 away = x - x.cwiseMax(place->low).cwiseMin(place->high);
         if (!(squaredLength(away) > far * far && dot(v, away) > 0.0 && dot(v, setup.gravity) >= 0.0)) return 0;
-        return sumContacts(setup.obstacles, probeOf(setup.materials, particles, p, v)).energy != 0.0 ? 0 : 1;
+        return sumContacts(setup.obstacles, probeOf(setup.materials, particles, p, v, simulation.time)).energy != 0.0
+                   ? 0
+                   : 1;
     });
 }
 

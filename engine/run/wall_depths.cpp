@@ -15,7 +15,7 @@ double depthOf(const Simulation& simulation, std::size_t p) {
     if (isClearOfObstacles(simulation, p)) return 0.0;
     const double radius = simulation.particles.radius[p];
     double depth = 0.0;
-    forEachTouched(simulation.setup.obstacles, simulation.particles.position[p], radius,
+    forEachTouched(simulation.setup.obstacles, simulation.particles.position[p], simulation.time, radius,
                    [&](const Surface& surface) { depth = std::max(depth, 1.0 - surface.height / radius); });
     return depth;
 }

@@ -126,6 +126,10 @@ BoundingBox Revolution::bounds() const {
     return {{-radius, all.low.height - halfThickness_, -radius}, {radius, all.high.height + halfThickness_, radius}};
 }
 
+double Revolution::thickness() const {
+    return isSolid_ ? std::numeric_limits<double>::infinity() : 2.0 * halfThickness_;
+}
+
 void Revolution::searchBlock(std::size_t block, const HalfPlaneVector& point, Nearest& nearest) const {
     const std::size_t end = std::min((block + 1) * kBlockSize, edges_.size());
     for (std::size_t k = block * kBlockSize; k < end; ++k) {

@@ -39,6 +39,9 @@ class Revolution {
     /// The smallest box around the solid.
     BoundingBox bounds() const;
 
+    /// The thickness of a wall, m; infinite for the inside of a polygon, of which it is not known.
+    double thickness() const;
+
  private:
     /// A vector in the half plane.
     struct HalfPlaneVector {

@@ -12,11 +12,13 @@ namespace engine {
 
 /// A particle as its contacts see it.
 /// @param velocity  from which damping and friction are computed, m/s
+/// @param time      at which the obstacles are met, s
 inline Probe probeOf(const std::vector<Material>& materials, const Particles& particles, std::size_t p,
-                     const Vec3& velocity) {
+                     const Vec3& velocity, double time) {
     const Material& material = materials[particles.material[p]];
-    return {particles.position[p], velocity,          particles.radius[p], material.dampingReach,
-            material.friction,     particles.mass[p], material.repulsion,  material.damping};
+    return {particles.position[p], velocity,          particles.radius[p],
+            material.dampingReach, material.friction, particles.mass[p],
+            material.repulsion,    material.damping,  time};
 }
 
 }  // namespace engine

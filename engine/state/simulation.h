@@ -106,6 +106,14 @@ struct WallDepths {
     std::uint64_t centersOutside = 0;  ///< most centers that lay beyond a surface at once
 };
 
+/// What an obstacle has given to the particles since the start of a run. The load on the obstacle itself is the
+/// opposite.
+struct ObstacleLoad {
+    Vec3 impulse = Vec3::Zero();         ///< N s
+    Vec3 angularImpulse = Vec3::Zero();  ///< about the obstacle's pivot, N m s
+    double work = 0.0;                   ///< J
+};
+
 struct StepCache;
 
 /// Owns the step cache of a simulation and copies it with the simulation. The type of the cache is incomplete here, so
@@ -141,6 +149,7 @@ struct Simulation {
     AutoState automatic;
     StepStatistics steps;
     WallDepths wallDepths;
+    std::vector<ObstacleLoad> loads;  ///< of the obstacles, in their order; empty where none are recorded
     StepCachePointer cache;
     /// Called before every step with the simulation that takes it, which is a copy in the trial runs of error
     /// estimates; may be empty. To end advance() inside an interval, it throws Stopped. The simulation is then

@@ -8,6 +8,7 @@
 #include "engine/ranks/exact_sums.h"
 #include "engine/state/state_checks.h"
 #include "engine/stepping/drift.h"
+#include "engine/stepping/obstacle_loads.h"
 #include "engine/stepping/step_audit.h"
 #include "engine/stepping/step_cache.h"
 
@@ -40,16 +41,35 @@ void solveForChange(Simulation& simulation, double h) {
     simulation.steps.products += static_cast<std::uint64_t>(products);
 }
 
+/// Records the loads of half a kick at the contacts with obstacles.
+/// @param hadChange  whether half the change has been added to the velocities
+void recordHalfKicks(Simulation& simulation, double h, bool hadChange) {
+    if (simulation.setup.obstacles.areRecorded.empty()) return;
+    const std::vector<std::uint32_t>& order = simulation.cache->evaluator.order();
+    const std::vector<Vec3>& change = simulation.cache->implicit.change;
+    const double middle = simulation.time + 0.5 * h;
+    inParallel(order.size(), contactGrain(simulation.setup.obstacles), [&](std::size_t place) {
+        const std::size_t p = order[place];
+        if (p == kGhost) return;
+        const Vec3& velocity = simulation.particles.velocity[p];
+        const Vec3 before = hadChange ? Vec3(velocity - change[place]) : velocity;
+        recordHalfKick(simulation, p, before, change[place], middle, h);
+    });
+    addUpLoads(simulation);
+}
+
+/// Changes the velocities by the forces in the middle of a step of h seconds, and records the energy there.
 void kick(Simulation& simulation, double h, const MatrixWeights& weights) {
     Particles& particles = simulation.particles;
+    const double middle = simulation.time + 0.5 * h;
     const double pairEnergy = simulation.cache->evaluator.assemble(particles, weights, simulation.cache->forces,
                                                                    simulation.cache->implicit.matrix, h);
     ++simulation.steps.forceEvaluations;
     ++simulation.steps.matrices;
     inParallel(particles.count(), contactGrain(simulation.setup.obstacles), [&](std::size_t p) {
-        simulation.cache->forces[p] += resolvedContacts(simulation, p, particles.velocity[p]).force;
+        simulation.cache->forces[p] += resolvedContacts(simulation, p, particles.velocity[p], middle, 0.0).force;
     });
-    addContacts(simulation, h, simulation.cache->implicit.matrix);
+    addContacts(simulation, middle, h, simulation.cache->implicit.matrix);
     solveForChange(simulation, h);
     const std::vector<std::uint32_t>& order = simulation.cache->evaluator.order();
     const std::vector<Vec3>& change = simulation.cache->implicit.change;
@@ -58,8 +78,10 @@ void kick(Simulation& simulation, double h, const MatrixWeights& weights) {
             if (order[place] != kGhost) particles.velocity[order[place]] += change[place];
         });
     };
+    recordHalfKicks(simulation, h, false);
     addChange();
-    recordEnergy(simulation, pairEnergy);  // at this point the velocities are those in the middle of the step
+    recordEnergy(simulation, pairEnergy, middle);  // at this point the velocities are those in the middle of the step
+    recordHalfKicks(simulation, h, true);
     addChange();
 }
 
@@ -69,18 +91,22 @@ void implicitStep(Simulation& simulation, double h, const MatrixWeights& weights
     Particles& particles = simulation.particles;
     const double decay = expNegative(simulation.setup.drag * (0.5 * h));
     const std::size_t grain = contactGrain(simulation.setup.obstacles);
-    prepareDrift(simulation);
+    const double from = simulation.time;
+    prepareDrift(simulation, h);
+    place(simulation.setup.obstacles, from, from + 0.5 * h);
     inParallel(particles.count(), grain, [&](std::size_t p) {
         chooseSweptContact(simulation, p, h);  // the force that it returns is not needed
-        drift(simulation, p, 0.5 * h);
+        drift(simulation, p, from, 0.5 * h);
         particles.velocity[p] *= decay;
     });
     if (!isValid(simulation)) return markInvalid(simulation);
     kick(simulation, h, weights);
+    place(simulation.setup.obstacles, from + 0.5 * h, from + h);
     inParallel(particles.count(), grain, [&](std::size_t p) {
         particles.velocity[p] *= decay;
-        drift(simulation, p, 0.5 * h);
+        drift(simulation, p, from + 0.5 * h, 0.5 * h);
     });
+    addUpLoads(simulation);
     recordHeld(simulation);
     simulation.cache->forcesCurrent = false;
 }

@@ -1,4 +1,5 @@
-// The audit of time steps, a check of every step that was taken. A step is rejected if it gains energy or moves a
+// The audit of time steps, a check of every step that was taken. A step is rejected if it gains energy, beyond the work
+// that obstacles in motion do, or moves a
 // particle by more than its radius, in free fall relative to its group (free_groups.h); then the state before it is
 // restored. Every step is audited, except those of the paper's stepper.
 #pragma once
@@ -40,7 +41,8 @@ void recordEnergy(Simulation& simulation, const ParticleEnergy& own, double pair
 
 /// Records the energy of the present state for the audit; the sum over particles is computed here, the pair energy (J)
 /// is given.
-void recordEnergy(Simulation& simulation, double pairEnergy);
+/// @param time  at which the obstacles are where they are, s
+void recordEnergy(Simulation& simulation, double pairEnergy, double time);
 
 /// Records a NaN as the energy, so that the audit will reject the step. For states from which no forces can be
 /// computed.
@@ -63,7 +65,9 @@ struct SavedState {
     std::optional<double> energy;
     double kinetic = 0.0;
     std::vector<GroupEnergy> groupEnergies;
-    double allowance = 0.0;  ///< energy that the next step may gain, J
+    double work = 0.0;          ///< as in the step cache, J
+    double workAtEnergy = 0.0;  ///< as in the step cache, J
+    double allowance = 0.0;     ///< energy that the next step may gain, J
     StepStatistics steps;
 };
 

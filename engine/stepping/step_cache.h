@@ -4,6 +4,8 @@
 // list.
 #pragma once
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -49,6 +51,14 @@ struct StepCache {
     /// For each particle, another particle that was within the cutoff when this was last asked for, which is done near
     /// obstacles. The next search for such a particle begins with it.
     Scratch<std::vector<std::uint32_t>> cachedNeighbors;
+
+    double surfaceSpeed = 0.0;  ///< upper bound on the speed of obstacles' surfaces in this step, m/s
+    Scratch<tbb::enumerable_thread_specific<ContactLoads>> threadLoads;  ///< recorded by each thread in this step
+    std::vector<ObstacleLoad> stepLoads;                                 ///< of the step that is not yet accepted
+    /// Work on the particles by what is not part of their energy, such as obstacles in motion, since an arbitrary
+    /// moment, J: the audit compares its change with that of the energy.
+    double work = 0.0;
+    double workAtEnergy = 0.0;  ///< the work when `energy` was recorded, J
 
     double predictionError = 0.0;  ///< RMS of velocity Verlet's error in predicting velocities, radii per second
     /// Mean accelerations of the particles over the last step, m/s^2, and its length, s. For the steppers that estimate

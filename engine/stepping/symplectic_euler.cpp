@@ -9,6 +9,7 @@
 #include "engine/state/state_checks.h"
 #include "engine/stepping/drift.h"
 #include "engine/stepping/kick_drift.h"
+#include "engine/stepping/obstacle_loads.h"
 #include "engine/stepping/population.h"
 #include "engine/stepping/step_cache.h"
 #include "engine/stepping/take_step.h"
@@ -19,15 +20,16 @@ namespace {
 /// A step of particles begin to end - 1 among scaled walls, from the forces between particles. Returns whether the new
 /// positions and velocities are valid.
 bool stepAmongScaledWalls(Simulation& simulation, double h, double decay, std::size_t begin, std::size_t end) {
-    const ForceField& field = simulation.cache->evaluator.forceField();
+    const Setup& setup = simulation.setup;
     Particles& particles = simulation.particles;
+    ContactLoads* const loads = loadsOfThread(simulation);
     bool areValid = true;
     for (std::size_t p = begin; p < end; ++p) {
-        Probe particle = probeOf(field.materials, particles, p, particles.velocity[p]);
-        const Vec3 force =
-            simulation.cache->forces[p] + particle.mass * field.gravity + sumContacts(field.obstacles, particle).force;
+        Probe particle = probeOf(setup.materials, particles, p, particles.velocity[p], simulation.time);
+        const Vec3 force = simulation.cache->forces[p] + particle.mass * setup.gravity +
+                           sumContacts(setup.obstacles, particle, loads, h).force;
         particle.velocity = decay * Vec3(particle.velocity + h / particle.mass * force);
-        const int hits = moveAmongBarriers(field.obstacles, particle, h, Arrival::slides);
+        const int hits = moveAmongBarriers(setup.obstacles, particle, h, Arrival::slides, loads);
         simulation.cache->held[p] = static_cast<std::uint8_t>(hits);
         particles.position[p] = particle.position;
         particles.velocity[p] = particle.velocity;
@@ -53,6 +55,7 @@ bool symplecticEulerStep(Simulation& simulation, double h) {
                          .hasWeight = hasObstacles};
     const bool hasScaledWalls = hasObstacles && evaluator.forceField().obstacles.wall == WallLaw::scaled;
     if (hasScaledWalls) simulation.cache->held.resize(particles.count());
+    place(simulation.setup.obstacles, simulation.time, simulation.time + h);
     const bool areValid = holdsInRanges(particles.count(), contactGrain(evaluator.forceField().obstacles),
                                         [&](std::size_t begin, std::size_t end) {
                                             if (hasScaledWalls)
@@ -79,6 +82,8 @@ void advanceInEqualSteps(Simulation& simulation, double time) {
         emitDue(simulation);
         const bool areAllValid = symplecticEulerStep(simulation, h);
         record(simulation.steps, h, StepLimit::fixed, simulation.stepper);
+        addUpLoads(simulation);
+        acceptLoads(simulation);
         if (!areAllValid) requireValid(simulation, h);
     }
     simulation.time = time;

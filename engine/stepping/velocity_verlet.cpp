@@ -10,6 +10,7 @@
 #include "engine/ranks/exact_sums.h"
 #include "engine/state/state_checks.h"
 #include "engine/stepping/drift.h"
+#include "engine/stepping/obstacle_loads.h"
 #include "engine/stepping/step_audit.h"
 #include "engine/stepping/step_cache.h"
 
@@ -36,7 +37,8 @@ void velocityVerletStep(Simulation& simulation, double h, double lambda) {
     // The forces, and with them the neighbor list, must be current before contacts are chosen: whether a particle has
     // neighbors is read from the list, which must contain new particles.
     if (!simulation.cache->forcesCurrent) evaluateForces(simulation, particles.velocity, h);
-    prepareDrift(simulation);
+    const double from = simulation.time;
+    prepareDrift(simulation, h);
     std::vector<Vec3>& predicted = simulation.cache->predictedVelocities;
     predicted.resize(particles.count());
     inParallel(particles.count(), contactGrain(simulation.setup.obstacles), [&](std::size_t p) {
@@ -44,10 +46,10 @@ void velocityVerletStep(Simulation& simulation, double h, double lambda) {
         const Vec3 contacts = chooseSweptContact(simulation, p, h);
         const Vec3 change = halfKick(particles, p, h, simulation.cache->forces[p] + contacts);
         velocity += change;
-        drift(simulation, p, hasDrag ? 0.5 * h : h);
+        drift(simulation, p, from, hasDrag ? 0.5 * h : h);
         if (hasDrag) {
             velocity *= decay;
-            drift(simulation, p, 0.5 * h);
+            drift(simulation, p, from + 0.5 * h, 0.5 * h);
         }
         predicted[p] = velocity + (2.0 * lambda - 1.0) * change;
     });
@@ -61,7 +63,7 @@ void velocityVerletStep(Simulation& simulation, double h, double lambda) {
     // between velocity and prediction, in (radii per second)^2.
     const auto [kinetic, potential, errorSqSum] =
         exactSums<3>(*simulation.ranks, particles.count(), [&](std::size_t p) {
-            const ContactSums contacts = resolvedContacts(simulation, p, predicted[p]);
+            const ContactSums contacts = resolvedContacts(simulation, p, predicted[p], from + h, 0.5 * h);
             particles.velocity[p] += halfKick(particles, p, h, simulation.cache->forces[p] + contacts.force);
             const double radius = particles.radius[p];
             const Vec3 missing = particles.velocity[p] - predicted[p];
@@ -73,6 +75,7 @@ void velocityVerletStep(Simulation& simulation, double h, double lambda) {
     simulation.cache->forcesCurrent = true;
     simulation.cache->predictionError =
         std::sqrt(errorSqSum / static_cast<double>(std::max<std::uint64_t>(1, countOfAll(simulation))));
+    addUpLoads(simulation);
     recordEnergy(simulation, {kinetic, potential}, pairEnergy);
 }
 

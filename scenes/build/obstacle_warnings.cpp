@@ -60,9 +60,9 @@ struct Places {
 };
 
 /// How deep the center of a particle is in an obstacle, m; 0 where it is not, or less than kInsideDepth.
-double depthIn(const engine::Obstacle& obstacle, const engine::Vec3& point, double radius) {
+double depthIn(const engine::Obstacles& obstacles, std::size_t obstacle, const engine::Vec3& point, double radius) {
     double depth = 0.0;
-    forEachSurfaceNear(obstacle, point, radius,
+    forEachSurfaceNear(obstacles, obstacle, point, radius,
                        [&](const engine::Surface& surface) { depth = std::max(depth, -surface.height); });
     return depth > kInsideDepth * radius ? depth : 0.0;
 }
@@ -72,31 +72,30 @@ bool isContainer(const engine::Obstacle& obstacle) {
 }
 
 /// Index of a container that holds a particle; nothing if none does.
-std::optional<std::size_t> containerAround(const std::vector<engine::Obstacle>& obstacles, const engine::Vec3& point,
+std::optional<std::size_t> containerAround(const engine::Obstacles& obstacles, const engine::Vec3& point,
                                            double radius) {
-    for (std::size_t k = 0; k < obstacles.size(); ++k)
-        if (isContainer(obstacles[k]) && depthIn(obstacles[k], point, radius) == 0.0) return k;
+    for (std::size_t k = 0; k < obstacles.shapes.size(); ++k)
+        if (isContainer(obstacles.shapes[k]) && depthIn(obstacles, k, point, radius) == 0.0) return k;
     return std::nullopt;
 }
 
 /// The places that are inside an obstacle. Those outside a container, but in another one, are not among them: their
 /// containers contradict each other.
-Finding findInside(const std::vector<engine::Obstacle>& obstacles, std::size_t obstacle, const Places& places) {
+Finding findInside(const engine::Obstacles& obstacles, std::size_t obstacle, const Places& places) {
     return engine::sumOver<Finding>(places.sample.size(), [&](std::size_t k) {
         const std::uint32_t p = places.sample[k];
-        const double depth = depthIn(obstacles[obstacle], places.points[p], places.radius(p));
-        const bool isElsewhere = depth > 0.0 && isContainer(obstacles[obstacle]) &&
+        const double depth = depthIn(obstacles, obstacle, places.points[p], places.radius(p));
+        const bool isElsewhere = depth > 0.0 && isContainer(obstacles.shapes[obstacle]) &&
                                  containerAround(obstacles, places.points[p], places.radius(p));
         return depth > 0.0 && !isElsewhere ? Finding{1, p, depth} : Finding{};
     });
 }
 
 /// The places outside a container and inside another one, the first one's second.
-Finding findInOtherContainer(const std::vector<engine::Obstacle>& obstacles, std::size_t container,
-                             const Places& places) {
+Finding findInOtherContainer(const engine::Obstacles& obstacles, std::size_t container, const Places& places) {
     return engine::sumOver<Finding>(places.sample.size(), [&](std::size_t k) {
         const std::uint32_t p = places.sample[k];
-        const double depth = depthIn(obstacles[container], places.points[p], places.radius(p));
+        const double depth = depthIn(obstacles, container, places.points[p], places.radius(p));
         if (depth == 0.0) return Finding{};
         const auto other = containerAround(obstacles, places.points[p], places.radius(p));
         return other ? Finding{1, p, depth, {container, *other}} : Finding{};
@@ -127,8 +126,8 @@ double weightOf(const Places& places) {
 }
 
 void findParticlesInside(const Scene& scene, const Places& particles, StartMessages& messages) {
-    const std::vector<engine::Obstacle>& obstacles = scene.setup.obstacles.shapes;
-    for (std::size_t k = 0; k < obstacles.size(); ++k) {
+    const engine::Obstacles& obstacles = scene.setup.obstacles;
+    for (std::size_t k = 0; k < obstacles.shapes.size(); ++k) {
         const Finding finding = findInside(obstacles, k, particles);
         if (finding.count == 0) continue;
         messages.add(scene.tables.obstacles[k],
@@ -136,14 +135,14 @@ void findParticlesInside(const Scene& scene, const Places& particles, StartMessa
                                  countText(finding.count, weightOf(particles), "particle starts", "particles start"),
                                  insideText(scene, k, finding, particles.points[finding.first]),
                                  bodyText(scene, bodyOf(scene, finding.first)),
-                                 adviceFor(obstacles[k], 2 * finding.count > particles.sample.size())));
+                                 adviceFor(obstacles.shapes[k], 2 * finding.count > particles.sample.size())));
     }
     messages.endKind();
 }
 
 void findSitesInside(const Scene& scene, std::size_t emitter, const Places& sites, StartMessages& messages) {
-    const std::vector<engine::Obstacle>& obstacles = scene.setup.obstacles.shapes;
-    for (std::size_t k = 0; k < obstacles.size(); ++k) {
+    const engine::Obstacles& obstacles = scene.setup.obstacles;
+    for (std::size_t k = 0; k < obstacles.shapes.size(); ++k) {
         const Finding finding = findInside(obstacles, k, sites);
         if (finding.count == 0) continue;
         messages.add(scene.tables.emitters[emitter],
@@ -152,7 +151,7 @@ void findSitesInside(const Scene& scene, std::size_t emitter, const Places& site
                                      ? fmt::format("about {:.2g}", static_cast<double>(finding.count) * weightOf(sites))
                                      : fmt::to_string(finding.count),
                                  sites.points.size(), insideText(scene, k, finding, sites.points[finding.first]),
-                                 adviceFor(obstacles[k], 2 * finding.count > sites.sample.size())));
+                                 adviceFor(obstacles.shapes[k], 2 * finding.count > sites.sample.size())));
     }
 }
 
@@ -160,10 +159,10 @@ void findSitesInside(const Scene& scene, std::size_t emitter, const Places& site
 /// @param where  says of which body or emitter the place of an index is
 void findContradictions(const Scene& scene, const Places& places,
                         const std::function<std::string(std::uint32_t)>& where, StartMessages& messages) {
-    const std::vector<engine::Obstacle>& obstacles = scene.setup.obstacles.shapes;
+    const engine::Obstacles& obstacles = scene.setup.obstacles;
     std::set<std::pair<std::size_t, std::size_t>> reported;
-    for (std::size_t k = 0; k < obstacles.size(); ++k) {
-        if (!isContainer(obstacles[k])) continue;
+    for (std::size_t k = 0; k < obstacles.shapes.size(); ++k) {
+        if (!isContainer(obstacles.shapes[k])) continue;
         const Finding finding = findInOtherContainer(obstacles, k, places);
         if (finding.count == 0 || !reported.insert(std::minmax(k, finding.sides[1])).second) continue;
         messages.add(
@@ -188,12 +187,12 @@ Finding narrowGapAt(const Scene& scene, std::uint32_t p) {
     constexpr std::size_t kMostSides = 8;  // a particle in a corner touches three surfaces
     const double radius = scene.setup.initial.radius[p];
     const engine::Vec3& position = scene.setup.initial.position[p];
-    const std::vector<engine::Obstacle>& obstacles = scene.setup.obstacles.shapes;
+    const engine::Obstacles& obstacles = scene.setup.obstacles;
     std::array<Side, kMostSides> sides;
     std::size_t count = 0;
     Finding finding;
-    for (std::size_t k = 0; k < obstacles.size(); ++k)
-        forEachSurfaceNear(obstacles[k], position, radius, [&](const engine::Surface& surface) {
+    for (std::size_t k = 0; k < obstacles.shapes.size(); ++k)
+        forEachSurfaceNear(obstacles, k, position, radius, [&](const engine::Surface& surface) {
             if (count == kMostSides || surface.height < -kInsideDepth * radius) return;
             for (const Side& side : std::span(sides).first(count))
                 if (engine::dot(side.surface.normal, surface.normal) < kFacing &&

@@ -51,17 +51,21 @@ std::string bodyText(const Scene& scene, std::size_t body);
 /// "obstacle 3, a box".
 std::string obstacleText(const Scene& scene, std::size_t obstacle);
 
-/// Calls visit(surface) for the surfaces of an obstacle that are closer to a point than the reach (m).
+/// Calls visit(surface) for the surfaces of an obstacle, given by its index, that are closer to a point than the reach
+/// (m) at the start.
 template <class Visit>
-void forEachSurfaceNear(const engine::Obstacle& obstacle, const engine::Vec3& point, double reach, const Visit& visit) {
+void forEachSurfaceNear(const engine::Obstacles& obstacles, std::size_t obstacle, const engine::Vec3& point,
+                        double reach, const Visit& visit) {
+    const auto visitNear = [&](const engine::Surface& surface) {
+        if (surface.height < reach) visit(surface);
+    };
+    if (engine::isPlaced(obstacles, obstacle))
+        return engine::forEachPlacedSurface(obstacles, obstacle, point, 0.0, reach, visitNear);
     std::visit(
         [&](const auto& shape) {
-            if (!engine::mayReach(shape, point, reach)) return;
-            engine::forEachSurface(shape, point, 1.0, [&](const engine::Surface& surface) {
-                if (surface.height < reach) visit(surface);
-            });
+            if (engine::mayReach(shape, point, reach)) engine::forEachSurface(shape, point, 1.0, visitNear);
         },
-        obstacle);
+        obstacles.shapes[obstacle]);
 }
 
 /// Finds particles and points of emission inside obstacles, particles in gaps without room, and containers that

@@ -52,7 +52,7 @@ std::uint32_t bodyOf(const Scene& scene, std::uint32_t particle) {
 }
 
 std::string obstacleText(const Scene& scene, std::size_t obstacle) {
-    constexpr std::array kShapes = {"plane", "container", "box", "sphere"};
+    constexpr std::array kShapes = {"plane", "container", "box", "sphere", "solid of revolution", "mesh"};
     static_assert(kShapes.size() == std::variant_size_v<engine::Obstacle>);
     return fmt::format("obstacle {}, a {}", obstacle + 1, kShapes[scene.setup.obstacles.shapes[obstacle].index()]);
 }

@@ -69,6 +69,11 @@ bool isOnWrongSide(const engine::Sphere& sphere, const Path& path, double) {
     return crossesSphere(path, sphere.center, sphere.radius);
 }
 
+template <class Distances>
+bool isOnWrongSide(const engine::DistanceSolid<Distances>& solid, const Path& path, double) {
+    return solid.at(path.from).value > 0.0 && solid.at(path.to).value < 0.0;
+}
+
 }  // namespace
 
 /// Observable: number of particles on the wrong side of an obstacle at the end of a run: behind the repulsors of a

@@ -69,7 +69,7 @@ Probe randomProbe(std::uint64_t number) {
 /// The heights of the surfaces that touch a particle, in ascending order.
 std::vector<double> touchedHeights(const Obstacles& obstacles, const Probe& probe) {
     std::vector<double> heights;
-    forEachTouched(obstacles, probe.position, probe.radius,
+    forEachTouched(obstacles, probe.position, 0.0, probe.radius,
                    [&](const Surface& surface) { heights.push_back(surface.height); });
     std::ranges::sort(heights);
     return heights;

@@ -139,10 +139,10 @@ TEST_CASE("What a particle touches is every surface below its radius, to the las
     std::size_t touched = 0, untouched = 0;
     const auto compare = [&](const Vec3& point) {
         std::vector<double> near, visited;
-        forEachSurface(obstacles, point, kFar, [&](const Surface& surface) {
+        forEachSurface(obstacles, point, 0.0, kFar, [&](const Surface& surface) {
             if (surface.height < radius) near.push_back(surface.height);
         });
-        forEachTouched(obstacles, point, radius, [&](const Surface& surface) { visited.push_back(surface.height); });
+        forEachTouched(obstacles, point, 0.0, radius, [&](const Surface& surface) { visited.push_back(surface.height); });
         CHECK(visited == near);
         touched += near.size();
         untouched += 9 - near.size();

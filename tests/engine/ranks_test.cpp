@@ -50,6 +50,19 @@ Setup mixed(StepperKind stepper) {
     return setup;
 }
 
+/// The busy scene with a paddle that spins in it.
+Setup stirred(StepperKind stepper) {
+    Setup setup = busy(stepper);
+    Obstacles& obstacles = setup.obstacles;
+    obstacles.wall = WallLaw::scaled;
+    obstacles.motions.resize(obstacles.shapes.size());
+    obstacles.shapes.emplace_back(Box{Vec3(-1.0, 0.1, -0.1), Vec3(1.0, 0.5, 0.1)});
+    Motion& paddle = obstacles.motions.emplace_back();
+    paddle.pivot = Vec3(0, 0.3, 0);
+    paddle.spin = Vec3(0, 8, 0);
+    return setup;
+}
+
 constexpr double kFrame = 0.03;  // s
 
 /// Enough for the automatic stepper to compare a run with twins, and few for the others.
@@ -113,6 +126,17 @@ TEST_CASE("A run on several ranks ends in the state of a run in one process", "[
     for (const StepperKind stepper : kSteppers) {
         INFO(nameOf(stepper));
         checkDivisions(busy(stepper));
+    }
+}
+
+TEST_CASE("What a paddle stirs, and its loads, have the same bits on any ranks", "[ranks]") {
+    for (const StepperKind stepper :
+         {StepperKind::symplecticEuler, StepperKind::linearlyImplicit, StepperKind::automatic}) {
+        INFO(nameOf(stepper));
+        Simulation simulation = start(stirred(stepper));
+        advance(simulation, 2.0 * kFrame);
+        CHECK(simulation.loads.back().work != 0.0);
+        checkDivisions(stirred(stepper));
     }
 }
 
