@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "render/cpu/lighting/mesh_depth_map.h"
 #include "render/cpu/metaballs/metaball_frame.h"
 #include "render/cpu/surface_layers.h"
 
@@ -44,6 +45,7 @@ void CpuRenderer::draw(const PreparedView& view, const LayerSelection& wanted, L
     shading_ = shadingOf(*view.view);
     blackShading_ = shading_;
     blackShading_.background = {};
+    placeMeshes(view, times);
     // What the middles of the pixels show needs no other rays.
     const std::vector<Sampling> samplings =
         wanted.isShaded() ? samplingsOf(quality_) : std::vector{middlesOf(quality_)};
@@ -53,6 +55,17 @@ void CpuRenderer::draw(const PreparedView& view, const LayerSelection& wanted, L
     }
     if (!wanted.image) return;
     timed(times.readBack, [&] { layers.image = packedImage(size_, pixels_, padded_.width, std::move(layers.image)); });
+}
+
+// The same for all samplings: the filter of the depth map is smooth, and its map is as fine as the picture.
+void CpuRenderer::placeMeshes(const PreparedView& view, DrawTimes& times) {
+    timed(times.bin,
+          [&] { meshTiles_ = meshTiles(view.frame, view.meshes, view.lineMargin(), std::move(meshTiles_)); });
+    timed(times.shadow, [&] {
+        const DepthMapGrid& grid = view.meshDepthMap;
+        meshDepthMap_ =
+            grid.empty() ? DepthMap{} : meshDepthMap(view.light, grid, view.meshes, std::move(meshDepthMap_));
+    });
 }
 
 void CpuRenderer::drawLayers(const PreparedView& view, const Sampling& sampling, const LayerSelection& wanted,
@@ -95,6 +108,7 @@ Occluders CpuRenderer::occludersOf(const PreparedView& view) const {
     occluders.eye = view.frame.eye;
     if (!view.lightGrid.empty()) occluders.spheres = &view.lightGrid;
     if (!depthMap_.empty()) occluders.metaballs = &depthMap_;
+    if (!meshDepthMap_.empty()) occluders.meshes = &meshDepthMap_;
     if (view.view->light.shadows && !view.view->boxObstacles.empty()) occluders.lightBoxes = &view.lightBoxes;
     occluders.boxes = view.view->boxObstacles;
     occluders.softness = view.view->light.softness;
@@ -109,8 +123,15 @@ Occluders CpuRenderer::occludersOf(const PreparedView& view) const {
 /// The job points into the prepared view, the sampling and this object, which have to outlive it.
 PictureJob CpuRenderer::pictureJob(const PreparedView& view, const Sampling& sampling, const Shading& shading) const {
     const std::vector<BoxObstacle>& boxes = view.view->boxObstacles;
-    const SolidGeometry solids{view.frame, view.viewSpheres, view.spherePixels, &view.sphereTiles,
-                               boxes,      view.boxFronts,   &view.boxTiles,    view.groundHeight()};
+    const SolidGeometry solids{view.frame,
+                               view.viewSpheres,
+                               view.spherePixels,
+                               &view.sphereTiles,
+                               boxes,
+                               view.boxFronts,
+                               &view.boxTiles,
+                               view.groundHeight(),
+                               view.meshes.empty() ? nullptr : &meshTiles_};
     const ShadingGeometry geometry{view.frame,
                                    view.drawn.spheres,
                                    view.sphereAttributes,
@@ -120,7 +141,8 @@ PictureJob CpuRenderer::pictureJob(const PreparedView& view, const Sampling& sam
                                    view.view->ground.value_or(Ground{}).color,
                                    metaballHits_.hits,
                                    view.light.toLight,
-                                   view.needsSkyVisibility};
+                                   view.needsSkyVisibility,
+                                   &view.meshes};
     const Occluders occluders = occludersOf(view);
     return {{solids, view.hasMetaballs ? &metaballHits_ : nullptr, view.lines, view.groundTiles},
             sampling.samples == 1 ? SampleOffsets(&sampling.offset, 1) : kFourSamples,

@@ -9,6 +9,7 @@
 #include "render/cpu/lighting/depth_map.h"
 #include "render/cpu/metaballs/metaball_hits.h"
 #include "render/cpu/picture_colors.h"
+#include "render/cpu/raster/mesh_tiles.h"
 #include "render/cpu/shading/shade.h"
 #include "render/prepare/view_renderer.h"
 
@@ -31,6 +32,7 @@ class CpuRenderer final : public ViewRenderer {
 
  private:
     void drawLayers(const PreparedView& view, const Sampling& sampling, const LayerSelection& wanted, Layers& layers);
+    void placeMeshes(const PreparedView& view, DrawTimes& times);
     void castDepthMap(const PreparedView& view, glm::vec2 offset);
     void cast(const PreparedView& view, const Sampling& sampling, DrawTimes& times);
     PictureJob pictureJob(const PreparedView& view, const Sampling& sampling, const Shading& shading) const;
@@ -43,6 +45,8 @@ class CpuRenderer final : public ViewRenderer {
     Shading blackShading_;  // without background, for Layers::color
     MetaballHits metaballHits_;
     DepthMap depthMap_;
+    DepthMap meshDepthMap_;
+    MeshTiles meshTiles_;
     BackgroundCache background_;
     std::vector<PointColors> sums_;   // per tile: sums of the colors of all samplings so far
     std::vector<PixelColor> pixels_;  // pixels of whole tiles, row by row

@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "render/cpu/metaballs/ray_layout.h"
+#include "render/cpu/raster/mesh_hits.h"
 
 namespace render {
 
@@ -32,8 +33,13 @@ void keepNearer(TileRays& rays, std::size_t k, float depth, std::int32_t hitId) 
 
 }  // namespace
 
+bool TileContents::hasMeshes(std::size_t tile) const {
+    return geometry.meshes != nullptr && !geometry.meshes->tiles.itemsOf(tile).empty();
+}
+
 TileKind TileContents::kindOf(std::size_t tile) const {
-    const bool hasObjects = hasSpheres(tile) || hasBoxes(tile) || hasMetaballs(tile) || hasLines(tile);
+    const bool hasObjects =
+        hasSpheres(tile) || hasBoxes(tile) || hasMeshes(tile) || hasMetaballs(tile) || hasLines(tile);
     return hasObjects ? TileKind::mixed : ground[tile];
 }
 
@@ -45,6 +51,9 @@ TileSamples::TileSamples(const TileContents& contents, SampleOffsets offsets, st
     for (TileRays& rays : samples_) findFlatHits(contents.geometry, flats, rays);
     if (contents.hasMetaballs(tile)) addMetaballs();
     if (contents.hasSpheres(tile)) findSphereHits(contents.geometry, tile, samples_);
+    if (!contents.hasMeshes(tile)) return;
+    findMeshHits(contents.geometry, tile, samples_);
+    if (samples_.size() > 1) mergeSmoothHits(contents.geometry, samples_);
 }
 
 void TileSamples::findEdges(TileEdges& edges) const {

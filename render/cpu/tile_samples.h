@@ -27,6 +27,7 @@ struct TileContents {
     bool hasSpheres(std::size_t tile) const { return !geometry.tiles->itemsOf(tile).empty(); }
     bool hasBoxes(std::size_t tile) const { return !geometry.boxTiles->itemsOf(tile).empty(); }
     bool hasLines(std::size_t tile) const { return !lines.tiles.itemsOf(tile).empty(); }
+    bool hasMeshes(std::size_t tile) const;
     bool hasMetaballs(std::size_t tile) const { return metaballs != nullptr && metaballs->slots[tile] >= 0; }
     TileKind kindOf(std::size_t tile) const;
 };

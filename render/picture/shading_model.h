@@ -59,8 +59,8 @@
 //
 // 4. Light visibility (shadows)
 //
-// lightVisibility is max(0, 1 - C), where C is the sum of what spheres, boxes and metaballs cover of the light. The
-// light's plane is the one across l, and S is the softness of the light. With S > 0,
+// lightVisibility is max(0, 1 - C), where C is the sum of what spheres, boxes, meshes and metaballs cover of the light.
+// The light's plane is the one across l, and S is the softness of the light. With S > 0,
 //   edge(x) = y^2 (3 - 2 y)  with  y = clamp(x + 1/2, 0, 1).
 // A sphere of radius R, whose center is at the distance q from the ray to the light and H along it, covers
 //   edge((R - q)/w)  with  w = S min(R, max(0, H/2)),
@@ -68,8 +68,8 @@
 // covers
 //   edge(x/w)  with  w = S min(mean radius of the particles, E/2),
 // where x is the distance on the light's plane from the nearest of the lines through the sides of its outline, positive
-// inside, and E the distance at which the ray leaves it. A box behind the point covers nothing. Metaballs cover the
-// share of rays to the light that meet them. With t = S/2 mean radii, these rays start around
+// inside, and E the distance at which the ray leaves it. A box behind the point covers nothing. Meshes and metaballs
+// cover the share of rays to the light that meet them. With t = S/2 mean radii, these rays start around
 //   p + 1.5 t n + 0.5 t l,  p being the point,
 // and are spread over the light's plane with the weights of a quadratic B-spline, 3 t wide, along each of the axes u
 // and v of light_space.h. With S = 0 edges are sharp, up to the width of a pixel.

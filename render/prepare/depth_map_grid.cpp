@@ -14,6 +14,30 @@ namespace {
 // filtered over three texels, is then a quarter of a radius wide.
 constexpr float kTexelsPerRadius = 12.0F;
 
+/// The grid around all that casts shadows.
+/// @param bounds  in light space, relative to the eye, m
+/// @param wanted  side of a texel if not more than maxTexels lie along a side of the map, m
+DepthMapGrid gridAround(const LightBasis& basis, const View& view, const Bounds<glm::vec3>& bounds, float wanted,
+                        int maxTexels) {
+    const glm::vec3 extent = bounds.high - bounds.low;
+    DepthMapGrid grid;
+    grid.texelSize = std::max(
+        {std::max(extent.x, extent.y) / static_cast<float>(maxTexels - 7), wanted, std::numeric_limits<float>::min()});
+    grid.columns = static_cast<int>(extent.x / grid.texelSize) + 8;
+    grid.rows = static_cast<int>(extent.y / grid.texelSize) + 8;
+    const glm::vec2 eye(basis.toLightSpace(view.camera.eye));
+    const glm::vec2 low = glm::vec2(bounds.low) + eye;
+    grid.origin = (glm::floor(low / grid.texelSize) - 3.0F) * grid.texelSize - eye;
+    grid.bottom = bounds.low.z;
+    grid.top = bounds.high.z;
+    return grid;
+}
+
+/// Side of a texel whose filter, three texels wide, is as wide as soft edges (shading_model.h), m.
+float softTexelSize(const View& view) {
+    return 0.5F * view.light.softness * static_cast<float>(meanRadius(view.particles));
+}
+
 }  // namespace
 
 DepthMapGrid depthMapGrid(const LightBasis& basis, const View& view, std::span<const SkinBall> balls, int maxTexels) {
@@ -27,21 +51,14 @@ DepthMapGrid depthMapGrid(const LightBasis& basis, const View& view, std::span<c
         smallest = std::min(smallest, radius);
     }
     if (bounds.low.x > bounds.high.x) return {};
-    // A soft edge is filtered over three texels, each half as wide as the softness (shading_model.h).
-    const auto mean = static_cast<float>(meanRadius(view.particles));
-    const float softness = view.light.softness;
-    const float wanted = softness > 0.0F ? 0.5F * softness * mean : smallest / kTexelsPerRadius;
-    const glm::vec3 extent = bounds.high - bounds.low;
-    DepthMapGrid grid;
-    grid.texelSize = std::max(std::max(extent.x, extent.y) / static_cast<float>(maxTexels - 7), wanted);
-    grid.columns = static_cast<int>(extent.x / grid.texelSize) + 8;
-    grid.rows = static_cast<int>(extent.y / grid.texelSize) + 8;
-    const glm::vec2 eye(basis.toLightSpace(view.camera.eye));
-    const glm::vec2 low = glm::vec2(bounds.low) + eye;
-    grid.origin = (glm::floor(low / grid.texelSize) - 3.0F) * grid.texelSize - eye;
-    grid.bottom = bounds.low.z;
-    grid.top = bounds.high.z;
-    return grid;
+    const float wanted = view.light.softness > 0.0F ? softTexelSize(view) : smallest / kTexelsPerRadius;
+    return gridAround(basis, view, bounds, wanted, maxTexels);
+}
+
+DepthMapGrid meshDepthMapGrid(const LightBasis& basis, const View& view, const DrawnMeshes& meshes, int maxTexels) {
+    Bounds<glm::vec3> bounds;
+    for (const glm::vec3 position : meshes.positions) bounds.add(basis.toLightSpace(position));
+    return gridAround(basis, view, bounds, softTexelSize(view), maxTexels);
 }
 
 CameraFrame lightFrame(const LightBasis& basis, const DepthMapGrid& grid, glm::vec3 eye, int pixelsPerTexel) {

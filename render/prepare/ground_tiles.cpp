@@ -24,9 +24,11 @@ Rectangle shadowBounds(const PreparedView& prepared) {
     Rectangle bounds;
     if (const LightGrid& grid = prepared.lightGrid; !grid.empty())
         bounds.add(grid.origin, grid.origin + grid.cellSize * glm::vec2(grid.columns, grid.rows));
-    // The depth map may be shifted by less than a texel: one more is added on each side.
-    if (const DepthMapGrid& map = prepared.depthMap; !map.empty())
-        bounds.add(map.origin - map.texelSize, map.origin + map.texelSize * glm::vec2(map.columns + 1, map.rows + 1));
+    // The depth map of metaballs may be shifted by less than a texel: one more is added on each side.
+    for (const DepthMapGrid* map : {&prepared.depthMap, &prepared.meshDepthMap})
+        if (!map->empty())
+            bounds.add(map->origin - map->texelSize,
+                       map->origin + map->texelSize * glm::vec2(map->columns + 1, map->rows + 1));
     if (!view.light.shadows) return bounds;
     for (const BoxObstacle& box : view.boxObstacles) {
         // More than half the width of the shadow's edge, which is soft or as wide as a pixel. Half the box's diagonal

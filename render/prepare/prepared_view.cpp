@@ -51,6 +51,9 @@ void binForLight(PreparedView& to) {
                         : LightBoxGrid{};
     to.depthMap = castsShadows && to.hasMetaballs ? depthMapGrid(to.light, view, to.skin, to.settings.depthMapTexels)
                                                   : DepthMapGrid{};
+    to.meshDepthMap = castsShadows && !to.meshes.empty()
+                          ? meshDepthMapGrid(to.light, view, to.meshes, to.settings.depthMapTexels)
+                          : DepthMapGrid{};
     if (to.depthMap.empty()) return;
     to.lightMetaballs = metaballScene(
         lightFrame(to.light, to.depthMap, view.camera.eye, to.settings.depthMapRaysPerTexel), view, to.skin);
@@ -68,11 +71,8 @@ void findBoxTiles(PreparedView& to) {
     const std::vector<BoxObstacle>& boxes = to.view->boxObstacles;
     to.boxFronts.clear();
     for (const BoxObstacle& box : boxes) to.boxFronts.push_back(frontOf(to.frame, box));
-    float widestLine = 0.0F;
-    for (const ScreenLine& line : to.lines.lines) widestLine = std::max(widestLine, line.width);
-    // Rays through the points of a line that are nearest to a tile's pixels pass up to half the line's width beside the
-    // tile. Two pixels are in the bounds of a box already, of which one is left for the rounding.
-    const int margin = static_cast<int>(std::max(std::ceil(0.5F * widestLine - 1.0F), 0.0F));
+    // Two pixels are in the bounds of a box already, of which one is left for the rounding.
+    const int margin = std::max(to.lineMargin() - 1, 0);
     const auto tileOf = [](int pixel, int count) { return std::clamp(pixel, 0, count - 1) / kTileSize; };
     std::vector<CellItem> items;
     for (const std::uint32_t index : indicesByKey(to.boxFronts)) {
@@ -92,6 +92,12 @@ void findGroundTiles(PreparedView& to) {
 
 }  // namespace
 
+int PreparedView::lineMargin() const {
+    float widest = 0.0F;
+    for (const ScreenLine& line : lines.lines) widest = std::max(widest, line.width);
+    return static_cast<int>(std::ceil(0.5F * widest));
+}
+
 void prepareView(const View& view, const PrepareSettings& settings, PreparedView& to, DrawTimes& times) {
     to.settings = settings;
     to.frame = cameraFrame(view.camera, settings.size);
@@ -104,6 +110,7 @@ void prepareView(const View& view, const PrepareSettings& settings, PreparedView
     const auto placeBalls = [&] {
         timed(times.bin, [&] {
             to.drawn = drawnSpheres(drawn);
+            to.meshes = drawnMeshes(drawn, to.frame.eye, std::move(to.meshes));
             to.skin = to.hasMetaballs ? skinOf(drawn) : std::vector<SkinBall>{};
         });
         tbb::parallel_invoke([&] { timed(times.bin, [&] { binForCamera(to); }); },

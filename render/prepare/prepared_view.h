@@ -11,6 +11,7 @@
 #include "render/picture/view.h"
 #include "render/prepare/ambient_occlusion.h"
 #include "render/prepare/depth_map_grid.h"
+#include "render/prepare/drawn_meshes.h"
 #include "render/prepare/drawn_spheres.h"
 #include "render/prepare/light_space.h"
 #include "render/prepare/metaball_scene.h"
@@ -46,6 +47,9 @@ struct PreparedView {
     DepthMapGrid depthMap;         ///< empty unless metaballs cast shadows
     MetaballScene lightMetaballs;  ///< the metaballs as the light sees them, for the depth map; without attributes
 
+    DrawnMeshes meshes;         ///< the mesh obstacles at their places
+    DepthMapGrid meshDepthMap;  ///< of the heights of meshes over the light's plane; empty unless they cast shadows
+
     LineList lines;
     std::vector<float> boxFronts;       ///< view depths that no point of a box is before, m
     CellLists boxTiles;                 ///< boxes that a tile or a line in it may show, front to back
@@ -65,6 +69,9 @@ struct PreparedView {
     std::optional<float> groundHeight() const {
         return view->ground ? std::optional(view->ground->height - frame.eye.y) : std::nullopt;
     }
+    /// How far beside a tile rays through the points of a line that are nearest to the tile's pixels may pass, pixels:
+    /// half the width of the widest line.
+    int lineMargin() const;
     /// Whether ambient light is occluded.
     bool hasOcclusion() const { return needsSkyVisibility && view->ambient.occlusion > 0.0F; }
 };

@@ -17,6 +17,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "render/prepare/drawn_meshes.h"
 #include "render/prepare/tiles.h"
 
 namespace render {
@@ -78,6 +79,11 @@ class VisibleVolume {
         for (const BoxObstacle& box : view.boxObstacles)
             if (pixelsTouchedByBox(frame, box.minimum, box.maximum))
                 addReceiver({box.minimum - frame.eye, box.maximum - frame.eye});
+        for (const MeshObstacle& obstacle : view.meshObstacles) {
+            const Bounds<glm::vec3> box = boundsOf(obstacle);
+            if (box.low.x <= box.high.x && pixelsTouchedByBox(frame, box.low, box.high))
+                addReceiver({box.low - frame.eye, box.high - frame.eye});
+        }
     }
 
     /// Whether a sphere may touch the picture. @param center  relative to the eye

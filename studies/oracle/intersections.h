@@ -25,7 +25,7 @@ struct Ray {
 
 /// The point where a ray first meets a surface, and the color of the surface there.
 struct Hit {
-    enum class Kind : std::uint8_t { none, particle, sphereObstacle, boxObstacle, ground };
+    enum class Kind : std::uint8_t { none, particle, sphereObstacle, boxObstacle, meshObstacle, ground };
     Kind kind = Kind::none;
     double distance = kInfinity;  ///< distance from the origin of the ray, m; not a depth
     dvec3 point{0.0};

@@ -129,6 +129,12 @@ void keepNearer(Hit& best, Hit candidate, Hit::Kind kind, const glm::vec3& color
     if (candidate.distance < best.distance) best = candidate;
 }
 
+/// How far above its own surface a ray to the light begins, m: about a million roundings of the point's coordinates,
+/// which is never visible.
+double lift(const dvec3& point) {
+    return 1e-9 * (1.0 + glm::length(point));
+}
+
 /// The nearest point along a ray on a surface that casts shadows: on any surface but the ground.
 Hit traceCasters(const Scene& scene, const Ray& ray) {
     const render::View& view = scene.view;
@@ -148,7 +154,20 @@ Hit traceCasters(const Scene& scene, const Ray& ray) {
         keepNearer(best, hitSphere(ray, dvec3(sphere.center), sphere.radius), Hit::Kind::sphereObstacle, sphere.color);
     for (const render::BoxObstacle& box : view.boxObstacles)
         keepNearer(best, hitBox(ray, box), Hit::Kind::boxObstacle, box.color);
-    return best;
+    const Hit onMesh = scene.meshes.nearest(ray);
+    return onMesh.distance < best.distance ? onMesh : best;
+}
+
+/// The share of the light that meshes cover at a point.
+double coverOfMeshes(const Scene& scene, const ShadedPoint& shaded) {
+    if (scene.view.meshObstacles.empty()) return 0.0;
+    double met = 0.0;
+    const std::vector<dvec3> origins = fieldShadowOrigins(shaded, meanRadius(scene.view));
+    for (const dvec3& origin : origins)
+        met += scene.meshes.nearest({origin + lift(shaded.point) * shaded.normal, shaded.toLight}).distance < kInfinity
+                   ? 1.0
+                   : 0.0;
+    return met / static_cast<double>(origins.size());
 }
 
 dvec3 unitToLight(const render::View& view) {
@@ -226,7 +245,8 @@ dvec3 shadeSurface(const Scene& scene, const Hit& hit, const Ray& ray) {
 
 }  // namespace
 
-Scene::Scene(const render::View& view_, bool bruteForce) : view(view_), balls(ballsOf(view_)), sky(view_) {
+Scene::Scene(const render::View& view_, bool bruteForce)
+    : view(view_), balls(ballsOf(view_)), sky(view_), meshes(view_) {
     if (bruteForce) return;
     std::vector<Extent> extents;
     for (std::size_t k = 0; k < balls.size(); ++k) {
@@ -297,16 +317,14 @@ double meanRadius(const render::View& view) {
 }
 
 bool isInShadow(const Scene& scene, const dvec3& point, const dvec3& normal) {
-    // The ray begins above its own surface, by about a million roundings of its coordinates, which is never visible.
-    const double lift = 1e-9 * (1.0 + glm::length(point));
-    return traceCasters(scene, {point + lift * normal, unitToLight(scene.view)}).kind != Hit::Kind::none;
+    return traceCasters(scene, {point + lift(point) * normal, unitToLight(scene.view)}).kind != Hit::Kind::none;
 }
 
 double lightVisibility(const Scene& scene, const dvec3& point, const dvec3& normal) {
     const render::View& view = scene.view;
     if (view.light.softness == 0.0F) return isInShadow(scene, point, normal) ? 0.0 : 1.0;
     const ShadedPoint shaded{point, normal, unitToLight(view), double(view.light.softness)};
-    double cover = 0.0;
+    double cover = coverOfMeshes(scene, shaded);
     if (view.style == render::Style::spheres) {
         for (const std::uint32_t k : scene.ballsAlong({point, shaded.toLight}))
             cover += coverOfSphere(shaded, dvec3(view.particles[k].center), double(view.particles[k].radius));

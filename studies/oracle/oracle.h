@@ -6,6 +6,8 @@
 //   - Spheres, boxes and the metaball surface are solid: a ray that starts inside one hits it at distance 0. The normal
 //     there is a sphere's radial direction, the normal of a box's nearest face, or the negative gradient of the field;
 //     where that is zero, the normal points against the ray.
+//   - A mesh is its surface: a ray that starts inside one meets the inner side of the surface, whose normal points to
+//     the inside.
 //   - Rays start at the eye (orthographic: on the plane through the eye) with no near plane. Nothing behind it is seen.
 //   - The ground can be seen from both sides, but its normal is always +y.
 //   - The fade of the ground depends on the distance in space, height included, and mixes the unclamped color.
@@ -21,6 +23,7 @@
 #include "render/picture/view.h"
 #include "studies/oracle/ball_grid.h"
 #include "studies/oracle/intersections.h"
+#include "studies/oracle/mesh_tree.h"
 #include "studies/oracle/sky_visibility.h"
 
 namespace oracle {
@@ -44,6 +47,7 @@ struct Scene {
     std::vector<Ball> balls;
     std::optional<BallGrid> grid;  ///< grid of the balls; empty: every ball is tried for every ray
     SkyVisibility sky;
+    MeshTree meshes;
 
     /// The indices of all balls that a ray may cross, and perhaps of some that it misses.
     Indices ballsAlong(const Ray& ray) const;

@@ -6,7 +6,6 @@
 #include <array>
 #include <limits>
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include "render/cpu/metaballs/metaball_cast.h"
@@ -21,19 +20,6 @@ namespace {
 // as many, pictures come no nearer to the exact ones (measured).
 constexpr float kJump = 4.0F;
 
-constexpr std::size_t kReadAtOnce = 8;  // number of heights that light_visibility.cpp loads at once
-constexpr float kMaxSteps = 65535.0F;   // largest height that can be stored, in steps of the map
-
-DepthMap emptyMap(const DepthMapGrid& grid) {
-    DepthMap map{grid};
-    const auto texels = static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows);
-    map.step = std::max((map.top - map.bottom) / (kMaxSteps - 1.0F), std::numeric_limits<float>::min());
-    map.heights.assign(4 * texels + kReadAtOnce, 0);
-    map.lowest.assign(texels, 0.0F);
-    map.highest.assign(texels, 0.0F);
-    return map;
-}
-
 /// Casts the heights of an empty depth map and finds their bounds.
 class HeightCast {
  public:
@@ -47,7 +33,7 @@ class HeightCast {
     void run() {
         forEachTile([&](std::size_t tile) { castFirst(tile); });
         forEachTile([&](std::size_t tile) { fillHeights(tile); });
-        findBounds();
+        findHeightBounds(map_);
     }
 
  private:
@@ -122,55 +108,8 @@ class HeightCast {
     }
 
     void setHeight(std::size_t column, std::size_t row, float height) {
-        const float steps = (height - map_.bottom) / map_.step + 1.0F;
         map_.heights[row * 2 * columns_ + column] =
-            static_cast<std::uint16_t>(std::clamp(steps, 0.0F, kMaxSteps) + 0.5F);
-    }
-
-    /// Finds the lowest and the highest height of each texel, then of five texels in a row, then of five such rows.
-    void findBounds() {
-        std::vector<float> lowest(map_.lowest.size()), highest(map_.highest.size());
-        forEachRow(0, [&](std::size_t row) {
-            const std::uint16_t* upper = &map_.heights[4 * row * columns_];
-            const std::uint16_t* lower = upper + 2 * columns_;
-            for (std::size_t k = 0; k < columns_; ++k) {
-                const std::size_t right = 2 * k + 1;
-                const std::size_t texel = row * columns_ + k;
-                lowest[texel] = std::min({upper[right - 1], upper[right], lower[right - 1], lower[right]});
-                highest[texel] = std::max({upper[right - 1], upper[right], lower[right - 1], lower[right]});
-            }
-        });
-        std::vector<float> lowestInRow(lowest.size()), highestInRow(highest.size());
-        const auto least = [](float a, float b) { return std::min(a, b); };
-        const auto most = [](float a, float b) { return std::max(a, b); };
-        forEachRow(0, [&](std::size_t row) {
-            reduceFive(lowest, 1, row, least, lowestInRow);
-            reduceFive(highest, 1, row, most, highestInRow);
-        });
-        forEachRow(2, [&](std::size_t row) {
-            reduceFive(lowestInRow, columns_, row, least, map_.lowest);
-            reduceFive(highestInRow, columns_, row, most, map_.highest);
-        });
-    }
-
-    /// Calls visit(row) for all rows but `margin` at both ends, in parallel.
-    template <typename Visit>
-    void forEachRow(std::size_t margin, const Visit& visit) const {
-        const tbb::blocked_range<std::size_t> rows(margin, rows_ - margin, 32);
-        tbb::parallel_for(rows, [&](const auto& range) {
-            for (std::size_t row = range.begin(); row < range.end(); ++row) visit(row);
-        });
-    }
-
-    /// Reduces, for each texel of a row of the map, five values to one: its own and two on each side, `stride` apart.
-    template <typename Reduce>
-    void reduceFive(const std::vector<float>& from, std::size_t stride, std::size_t row, const Reduce& reduce,
-                    std::vector<float>& to) const {
-        for (std::size_t k = row * columns_ + 2; k < (row + 1) * columns_ - 2; ++k) {
-            const float before = reduce(from[k - 2 * stride], from[k - stride]);
-            const float after = reduce(from[k + stride], from[k + 2 * stride]);
-            to[k] = reduce(from[k], reduce(before, after));
-        }
+            static_cast<std::uint16_t>(std::clamp(map_.stepsOf(height), 0.0F, kMostSteps) + 0.5F);
     }
 
     float heightOf(const RayBlock& block, std::size_t k) const {
@@ -186,7 +125,7 @@ class HeightCast {
 }  // namespace
 
 DepthMap castDepthMap(const DepthMapGrid& grid, const MetaballScene& scene) {
-    DepthMap map = emptyMap(grid);
+    DepthMap map = emptyDepthMap(grid);
     HeightCast(scene, map).run();
     return map;
 }

@@ -1,5 +1,5 @@
-// The depth map of the metaballs as the light sees them, for their shadows. Made by cpu_renderer.cpp, read by
-// light_visibility.cpp.
+// The depth map of the metaballs as the light sees them, for their shadows, and what it shares with that of the meshes,
+// which mesh_depth_map.cpp makes. Made by cpu_renderer.cpp, read by light_visibility.cpp.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace render {
 
-/// Heights of the metaballs' surface over the light's plane. A height is stored as a number of steps above `bottom`,
+/// Heights of a surface over the light's plane. A height is stored as a number of steps above `bottom`,
 /// counted from 1; 0 stands for no surface. Each texel has two rows of two heights, a quarter of a texel from its
 /// sides.
 struct DepthMap : DepthMapGrid {
@@ -20,7 +20,20 @@ struct DepthMap : DepthMapGrid {
     std::vector<std::uint16_t> heights{};
     /// Per texel: the lowest and the highest of the stored heights within two texels of it.
     std::vector<float> lowest{}, highest{};
+
+    /// A height in steps, not rounded.
+    float stepsOf(float height) const { return (height - bottom) / step + 1.0F; }
 };
+
+/// Largest height that can be stored, in steps of the map.
+inline constexpr float kMostSteps = 65535.0F;
+
+/// A depth map without any surface.
+/// @param old  a map that is no longer needed, whose memory is reused
+DepthMap emptyDepthMap(const DepthMapGrid& grid, DepthMap old = {});
+
+/// Sets DepthMap::lowest and DepthMap::highest.
+void findHeightBounds(DepthMap& map);
 
 /// Casts the depth map of the metaballs of a view.
 /// @param grid   not empty

@@ -2,8 +2,8 @@
 // set.
 //
 // Spheres and boxes are tested exactly, so that there is neither noise nor shadow acne; the edge of their shadows is
-// softened over at least one pixel's width. The shadows of metaballs come from the depth map that was cast from the
-// light.
+// softened over at least one pixel's width. The shadows of metaballs and of meshes come from the depth maps that were
+// drawn from the light.
 #include "render/cpu/lighting/light_visibility.h"
 
 #include <algorithm>
@@ -143,7 +143,7 @@ V weightAbove(const DepthMap& map, VI start, const HeightWeights& across, const 
 }
 
 /// Percentage-closer filtering of the depth map, with weights that change continuously with the point.
-V metaballCoverage(const DepthMap& map, const Occluders& occluders, const Receivers& at) {
+V mapCoverage(const DepthMap& map, const Occluders& occluders, const Receivers& at) {
     const D d;
     const LightBasis& light = occluders.light;
     // The point is raised off the surface by as much as the filter reaches sideways, so that a slope does not shade
@@ -181,7 +181,8 @@ V lightVisibilityAt(const Occluders& occluders, const Receivers& at) {
     V coverage = splat(0.0F);
     if (occluders.spheres != nullptr) coverage = coverage + spheresCoverage(*occluders.spheres, at, occluders.softness);
     if (occluders.lightBoxes != nullptr) coverage = addBoxes(occluders, at, coverage);
-    if (occluders.metaballs != nullptr) coverage = coverage + metaballCoverage(*occluders.metaballs, occluders, at);
+    if (occluders.metaballs != nullptr) coverage = coverage + mapCoverage(*occluders.metaballs, occluders, at);
+    if (occluders.meshes != nullptr) coverage = coverage + mapCoverage(*occluders.meshes, occluders, at);
     return hn::IfThenElseZero(at.isFacing, hn::Max(splat(1.0F) - coverage, splat(0.0F)));
 }
 

@@ -20,6 +20,7 @@ struct Occluders {
     glm::vec3 eye{0.0F};  ///< world coordinates, m
     const LightGrid* spheres = nullptr;
     const DepthMap* metaballs = nullptr;
+    const DepthMap* meshes = nullptr;
     const LightBoxGrid* lightBoxes = nullptr;
     std::span<const BoxObstacle> boxes;           ///< in world coordinates; what lightBoxes lists
     float softness = 0.0F;                        ///< softness of the shadows' edges, as in Light
@@ -28,7 +29,8 @@ struct Occluders {
     const SkyVisibilityMap* groundSky = nullptr;  ///< sky visibility of the ground, null without ambient occlusion
 
     bool isEmpty() const {
-        return spheres == nullptr && metaballs == nullptr && lightBoxes == nullptr && sky == nullptr;
+        return spheres == nullptr && metaballs == nullptr && meshes == nullptr && lightBoxes == nullptr &&
+               sky == nullptr;
     }
 };
 

@@ -148,6 +148,59 @@ void addMetaballs(const ShadingGeometry& geometry, const HitRays& hits, M where,
     if (geometry.hasSky) points.sky = select(where, unpackSky(hit.w), points.sky);
 }
 
+/// The vectors of a list at an index for each lane.
+Vec3 gatherVec3(const std::vector<glm::vec3>& list, VI index) {
+    static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+    const auto* values = reinterpret_cast<const float*>(list.data());
+    const VI first = index + index + index;
+    const auto component = [&](int axis) { return hn::GatherIndex(D(), values + axis, first); };
+    return {component(0), component(1), component(2)};
+}
+
+Vec3 cross(const Vec3& a, const Vec3& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Weights of the second and the third corner of a triangle where a ray meets it, or at the triangle's border where the
+/// ray passes by (Moeller and Trumbore 1997).
+struct CornerWeights {
+    V second, third;
+
+    CornerWeights(const Ray& ray, const Vec3& corner, const Vec3& toSecond, const Vec3& toThird) {
+        const V zero = splat(0.0F);
+        const V one = splat(1.0F);
+        const Vec3 across = cross(ray.direction, toThird);
+        const V volume = dot(toSecond, across);
+        const V inverse = one / hn::IfThenElse(volume == zero, splat(1.0e-30F), volume);
+        const Vec3 off = ray.origin - corner;
+        second = clamp(dot(off, across) * inverse, 0.0F, 1.0F);
+        third = clamp(dot(ray.direction, cross(off, toSecond)) * inverse, 0.0F, 1.0F);
+        const V scale = one / hn::Max(one, second + third);
+        second = second * scale;
+        third = third * scale;
+    }
+};
+
+void addMeshes(const ShadingGeometry& geometry, const HitRays& hits, M where, PointVector& points) {
+    const DrawnMeshes& meshes = *geometry.meshes;
+    const Words triangle = loadRecords(std::span(meshes.triangles), hits.indexOf(where, kHitTriangle));
+    const Vec3 corner = gatherVec3(meshes.positions, triangle.x);
+    const Vec3 toSecond = gatherVec3(meshes.positions, triangle.y) - corner;
+    const Vec3 toThird = gatherVec3(meshes.positions, triangle.z) - corner;
+    const CornerWeights weights(hits.ray, corner, toSecond, toThird);
+    const Vec3 point = corner + toSecond * weights.second + toThird * weights.third;
+    const V depth = hn::Max(dot(point, splat(geometry.frame.forward)), splat(0.0F));
+    const Vec3 mean = gatherVec3(meshes.normals, triangle.x) * (splat(1.0F) - weights.second - weights.third) +
+                      gatherVec3(meshes.normals, triangle.y) * weights.second +
+                      gatherVec3(meshes.normals, triangle.z) * weights.third;
+    const Vec3 flat = cross(toSecond, toThird);
+    // Normals that cancel each other, as those of a sheet's two sides, are no direction.
+    const Vec3 normal = normalize(select(dot(mean, mean) > splat(1.0e-12F), mean, flat));
+    const M isInner = dot(flat, hits.ray.direction) > splat(0.0F);
+    const V side = hn::IfThenElse(isInner, splat(-1.0F), splat(1.0F));
+    points.set(where, depth, normal * side, gatherVec3(meshes.colors, triangle.w));
+}
+
 void addGround(const ShadingGeometry& geometry, const HitRays& hits, M where, PointVector& points) {
     const V below = splat(geometry.ground.value_or(0.0F)) - hits.ray.origin.y;
     points.set(where, below / hits.ray.direction.y, splat({0.0F, 1.0F, 0.0F}), splat(geometry.groundColor));
@@ -162,11 +215,14 @@ void evaluateVector(const ShadingGeometry& geometry, std::size_t first, ShadingP
     PointVector found{splat(0.0F), splat(-geometry.toLight), one, one};
     const M isMetaball = floatMask(hits.hitId > splatInt(kHitMetaballs - 1));
     const M isBox = hn::AndNot(isMetaball, floatMask(hits.hitId > splatInt(kHitBox - 1)));
-    const M isSphere = hn::AndNot(isMetaball, hn::AndNot(isBox, floatMask(hits.hitId > splatInt(-1))));
+    const M isMesh = hn::AndNot(hn::Or(isMetaball, isBox), floatMask(hits.hitId > splatInt(kHitTriangle - 1)));
+    const M isOther = hn::Or(hn::Or(isMetaball, isBox), isMesh);
+    const M isSphere = hn::AndNot(isOther, floatMask(hits.hitId > splatInt(-1)));
     const M isGround = floatMask(hits.hitId == splatInt(kHitGround));
     if (!none(isGround)) addGround(geometry, hits, isGround, found);
     if (!none(isSphere)) addSpheres(geometry, hits, isSphere, found);
     if (!none(isBox)) addBoxes(geometry, hits, isBox, found);
+    if (!none(isMesh)) addMeshes(geometry, hits, isMesh, found);
     if (!none(isMetaball)) addMetaballs(geometry, hits, isMetaball, found);
     store(found.depth, &points.depth[first]);
     storeVec3(pointOnRay(hits.ray.origin, found.depth, hits.ray.direction), points.position, first);

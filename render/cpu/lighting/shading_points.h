@@ -14,6 +14,7 @@
 #include "render/cpu/raster/primary_hits.h"
 #include "render/picture/camera_frame.h"
 #include "render/picture/view.h"
+#include "render/prepare/drawn_meshes.h"
 #include "render/prepare/drawn_spheres.h"
 #include "render/prepare/tiles.h"
 
@@ -31,6 +32,7 @@ struct ShadingGeometry {
     std::span<const PackedHit> metaballs;  ///< hits of all rays that met metaballs
     glm::vec3 toLight{0.0F, 1.0F, 0.0F};
     bool hasSky = false;  ///< whether some term of the shading model needs the particles' sky visibility
+    const DrawnMeshes* meshes = nullptr;  ///< null without meshes
 };
 
 /// Up to a tile's worth of shading points as a structure of arrays. The caller sets count, hitId, x and y;
@@ -50,8 +52,9 @@ struct ShadingPoints {
 };
 
 /// Intersects each ray with the one thing that primary_hits.cpp found it to hit. That search keeps only the identity of
-/// a hit and its depth, because most hits are never shaded. A ray at an outline that misses by rounding gets the
-/// nearest point of the outline. The background's normal points away from the light.
+/// a hit and its depth, because most hits are never shaded. A ray at an outline that misses by rounding, and one beside
+/// a triangle that other samples of its pixel hit, gets a point of the outline. The background's normal points away
+/// from the light.
 void evaluateShadingPoints(const ShadingGeometry& geometry, ShadingPoints& points);
 
 }  // namespace render

@@ -1,9 +1,11 @@
-// Most lines run along faces of boxes and over the ground. There the depth of the pixel's own ray does not tell whether
-// the line is hidden, because the line may pass beside the middle of the pixel: a ray through the line's nearest point
-// is cast.
+// Most lines run along faces of boxes or meshes and over the ground. There the depth of the pixel's own ray does not
+// tell whether the line is hidden, because the line may pass beside the middle of the pixel: a ray through the line's
+// nearest point is cast.
 #include "render/cpu/raster/lines.h"
 
 #include <algorithm>
+
+#include "render/cpu/raster/mesh_hits.h"
 
 namespace render {
 
@@ -33,7 +35,7 @@ LinePoint nearestOnLine(const ScreenLine& line, bool perspective, glm::vec2 pixe
 }
 
 bool isFlat(std::int32_t hitId) {
-    return hitId < 0 || (hitId >= kHitBox && hitId < kHitMetaballs);
+    return hitId < 0 || (hitId >= kHitTriangle && hitId < kHitMetaballs);
 }
 
 /// Share of a pixel's samples at which neither a sphere nor metaballs hide a line at this depth.
@@ -61,6 +63,7 @@ LineCoverage lineCoverage(const SolidGeometry& geometry, const LineList& lines, 
             rays.y[pixel] = points[pixel].at.y;
         }
         findFlatHits(geometry, {true, geometry.boxTiles->itemsOf(tile)}, rays);
+        if (geometry.meshes != nullptr) findMeshHitsAnywhere(geometry, tile, rays);
         for (std::size_t pixel = 0; pixel < kTilePixels; ++pixel) {
             const LinePoint& nearest = points[pixel];
             if (nearest.coverage <= 0.0F || rays.depth[pixel] < nearest.depth * kNearer) continue;

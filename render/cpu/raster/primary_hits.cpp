@@ -185,12 +185,6 @@ void addSphere(const ViewSphere& sphere, std::int32_t id, const SphereRays& rays
     storeInt(hits.id, &sample.hitId[first]);
 }
 
-/// The part of a rectangle of pixels that lies in a tile, from the tile's corner.
-Rect withinTile(const Rect& pixels, int left, int top) {
-    return {std::max(pixels.x0 - left, 0), std::max(pixels.y0 - top, 0), std::min(pixels.x1 - left, kTileSize - 1),
-            std::min(pixels.y1 - top, kTileSize - 1)};
-}
-
 template <bool kPerspective>
 void addSpheres(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> samples) {
     const D d;

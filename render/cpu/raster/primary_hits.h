@@ -3,6 +3,7 @@
 // shading_points.cpp computes its position and normal for the few samples that are shaded.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -17,9 +18,13 @@
 
 namespace render {
 
-// A hit id tells what a ray hits, as one number. Hit ids from 0 on are indices of spheres.
+struct MeshTiles;
+
+// A hit id tells what a ray hits, as one number. Hit ids from 0 up to kHitTriangle are indices of spheres.
 inline constexpr std::int32_t kHitBackground = -1;
 inline constexpr std::int32_t kHitGround = -2;
+/// The hit id of a mesh obstacle is kHitTriangle + the index of a triangle.
+inline constexpr std::int32_t kHitTriangle = 1 << 27;
 /// The hit id of a box is kHitBox + 16 * its index + the face that is hit (0 +x, 1 -x, 2 +y, ... 5 -z) + 8 if the eye
 /// is inside.
 inline constexpr std::int32_t kHitBox = 1 << 28;
@@ -39,6 +44,7 @@ struct SolidGeometry {
     std::span<const float> boxFronts;     ///< view depths that no point of a box is before, m
     const CellLists* boxTiles = nullptr;  ///< boxes of each tile, front to back
     std::optional<float> ground;          ///< height of the ground over the eye, m
+    const MeshTiles* meshes = nullptr;    ///< null without meshes
 };
 
 /// One ray through each pixel of a tile, row by row, and its nearest hit so far.
@@ -54,6 +60,12 @@ struct FlatGeometry {
     bool hasGround = true;
     std::span<const std::uint32_t> boxes;  ///< front to back
 };
+
+/// The part of a rectangle of pixels that lies in a tile, from the tile's corner.
+inline Rect withinTile(const Rect& pixels, int left, int top) {
+    return {std::max(pixels.x0 - left, 0), std::max(pixels.y0 - top, 0), std::min(pixels.x1 - left, kTileSize - 1),
+            std::min(pixels.y1 - top, kTileSize - 1)};
+}
 
 // The functions below give a ray a hit that depends on its own position alone, bit for bit, not on the instruction set.
 

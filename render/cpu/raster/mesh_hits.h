@@ -1,0 +1,27 @@
+// What rays through the pixels of a tile meet first of the triangles of mesh obstacles, as many rays at a time as a
+// SIMD vector holds. Called by tile_samples.cpp and lines.cpp.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "render/cpu/raster/mesh_tiles.h"
+#include "render/cpu/raster/primary_hits.h"
+
+namespace render {
+
+// The functions below give a ray a hit that depends on its own position alone, bit for bit, not on the instruction set.
+// No ray passes between two triangles that share an edge.
+
+/// Replaces the rays' hits by nearer ones of the triangles of a tile. @pre every ray goes through the tile
+void findMeshHits(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> samples);
+
+/// Replaces the rays' hits by nearer ones of the triangles of a tile, for rays that may pass beside the tile by as much
+/// as the triangles were listed with.
+void findMeshHitsAnywhere(const SolidGeometry& geometry, std::size_t tile, TileRays& rays);
+
+/// Gives samples of a pixel that hit triangles of one smooth surface the same hit id, of one of these triangles, so
+/// that the pixel is no edge pixel.
+void mergeSmoothHits(const SolidGeometry& geometry, std::span<TileRays> samples);
+
+}  // namespace render

@@ -1,0 +1,170 @@
+// A triangle that has corners on both sides of the eye's plane is clipped at the edges of the picture to find its
+// bounds. It is not cut for anything else, because mesh_hits.cpp handles such triangles as they are.
+#include "render/cpu/raster/mesh_tiles.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace render {
+
+namespace {
+
+using glm::dvec3;
+
+constexpr std::size_t kChunk = 2048;  // corners or triangles that one task handles; chosen
+
+// How far beside a pixel a triangle may lie and still count as covering it, pixels. Far more than the rounding of
+// double precision.
+constexpr double kSlack = 0.01;
+
+/// Calls visit(k) for all k below count, in parallel.
+template <typename Visit>
+void forEach(std::size_t count, const Visit& visit) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kChunk), [&](const auto& range) {
+        for (std::size_t k = range.begin(); k < range.end(); ++k) visit(k);
+    });
+}
+
+dvec3 onPicture(const CameraFrame& frame, const dvec3& view) {
+    const double w = frame.perspective ? view.z : 1.0;
+    return {0.5 * frame.width * (view.x / double(frame.halfWidth) + w),
+            0.5 * frame.height * (w - view.y / double(frame.halfHeight)), w};
+}
+
+/// A convex polygon in homogeneous coordinates: a triangle, and what is left of it after four cuts.
+struct Polygon {
+    std::array<dvec3, 7> points;
+    std::size_t count = 3;
+};
+
+/// Cuts off the part of a polygon where dot(plane, point) < 0.
+Polygon clipped(const Polygon& polygon, const dvec3& plane) {
+    Polygon left;
+    left.count = 0;
+    for (std::size_t k = 0; k < polygon.count; ++k) {
+        const dvec3& from = polygon.points[k];
+        const dvec3& to = polygon.points[(k + 1) % polygon.count];
+        const double atFrom = dot(plane, from);
+        const double atTo = dot(plane, to);
+        if (atFrom >= 0.0) left.points[left.count++] = from;
+        if ((atFrom >= 0.0) != (atTo >= 0.0)) left.points[left.count++] = from + atFrom / (atFrom - atTo) * (to - from);
+    }
+    return left;
+}
+
+/// The part of a triangle that lies within the pyramid of a picture, which is a pixel wider on each side.
+Polygon withinPicture(const CameraFrame& frame, const std::array<dvec3, 3>& corners) {
+    Polygon polygon{{corners[0], corners[1], corners[2]}};
+    for (const dvec3& plane : {dvec3(1.0, 0.0, 1.0), dvec3(-1.0, 0.0, 1.0 + frame.width), dvec3(0.0, 1.0, 1.0),
+                               dvec3(0.0, -1.0, 1.0 + frame.height)})
+        polygon = clipped(polygon, plane);
+    return polygon;
+}
+
+/// The pixels that a polygon before the eye may cover.
+Rect pixelsOf(const CameraFrame& frame, const Polygon& polygon) {
+    glm::dvec2 low(std::numeric_limits<double>::max());
+    glm::dvec2 high(std::numeric_limits<double>::lowest());
+    for (std::size_t k = 0; k < polygon.count; ++k) {
+        const dvec3& point = polygon.points[k];
+        if (!(point.z > 0.0)) return {0, 0, frame.width - 1, frame.height - 1};  // the eye lies on the triangle
+        low = min(low, glm::dvec2(point) / point.z);
+        high = max(high, glm::dvec2(point) / point.z);
+    }
+    low = floor(low - kSlack);
+    high = floor(high + kSlack);
+    if (!(low.x < frame.width && low.y < frame.height && high.x >= 0.0 && high.y >= 0.0)) return {};
+    return {static_cast<int>(std::max(low.x, 0.0)), static_cast<int>(std::max(low.y, 0.0)),
+            static_cast<int>(std::min(high.x, frame.width - 1.0)),
+            static_cast<int>(std::min(high.y, frame.height - 1.0))};
+}
+
+/// Whether the eye, or in parallel projection its plane, is far enough from a box that no ray starts inside of it.
+bool isOutside(const CameraFrame& frame, const Bounds<glm::vec3>& box) {
+    const glm::vec3 slack = 1.0e-5F * (abs(box.low) + abs(box.high));
+    const glm::vec3 low = box.low - slack;
+    const glm::vec3 high = box.high + slack;
+    if (frame.perspective) return any(greaterThan(low, glm::vec3(0.0F))) || any(lessThan(high, glm::vec3(0.0F)));
+    const glm::vec3 nearest = mix(low, high, lessThan(frame.forward, glm::vec3(0.0F)));
+    return dot(nearest, frame.forward) > 0.0F;
+}
+
+/// Whether a triangle is seen from the side that its corners run around counterclockwise. The rows of a picture run
+/// down and its depth away from the eye, so that the picture's axes have the handedness of the world's.
+/// @param volume  determinant of the corners, of which the triangle has three times the sign of its area
+bool isFront(double volume) {
+    return volume < 0.0;
+}
+
+TriangleBounds boundsOf(const CameraFrame& frame, const MeshTiles& to, const DrawnTriangle& triangle, bool isCulled) {
+    const auto& [a, b, c] = triangle.corners;
+    TriangleBounds bounds;
+    bounds.front = std::min({to.depths[a], to.depths[b], to.depths[c]});
+    bounds.back = std::max({to.depths[a], to.depths[b], to.depths[c]});
+    if (!(bounds.back > 0.0F)) return bounds;
+    const std::array<dvec3, 3> corners{to.corners[a], to.corners[b], to.corners[c]};
+    const double volume = dot(corners[0], cross(corners[1], corners[2]));
+    if (volume == 0.0 || (isCulled && !isFront(volume))) return bounds;
+    const bool isCut = frame.perspective && !(bounds.front > 0.0F);
+    const Polygon polygon = isCut ? withinPicture(frame, corners) : Polygon{{corners[0], corners[1], corners[2]}};
+    if (polygon.count == 0) return bounds;
+    bounds.pixels = pixelsOf(frame, polygon);
+    const std::vector<glm::vec3>& normals = to.meshes->normals;
+    const glm::vec3 sum = normals[a] + normals[b] + normals[c];
+    const float square = dot(sum, sum);
+    bounds.normal = square > 0.0F ? sum / std::sqrt(square) : glm::vec3(0.0F);
+    return bounds;
+}
+
+CellLists listTriangles(const CameraFrame& frame, const std::vector<TriangleBounds>& bounds, int margin) {
+    std::vector<std::uint32_t> seen;
+    std::vector<float> fronts;
+    for (std::size_t k = 0; k < bounds.size(); ++k) {
+        if (bounds[k].pixels.x1 < bounds[k].pixels.x0) continue;
+        seen.push_back(static_cast<std::uint32_t>(k));
+        fronts.push_back(bounds[k].front);
+    }
+    const auto tileOf = [](int pixel, int count) { return std::clamp(pixel, 0, count - 1) / kTileSize; };
+    std::vector<CellItem> items;
+    items.reserve(seen.size());
+    for (const std::uint32_t rank : indicesByKey(fronts)) {
+        const Rect& at = bounds[seen[rank]].pixels;
+        items.push_back({seen[rank],
+                         {tileOf(at.x0 - margin, frame.width), tileOf(at.y0 - margin, frame.height),
+                          tileOf(at.x1 + margin, frame.width), tileOf(at.y1 + margin, frame.height)}});
+    }
+    return binIntoCells(items, tilesAlong(frame.width), tilesAlong(frame.height));
+}
+
+}  // namespace
+
+MeshTiles meshTiles(const CameraFrame& frame, const DrawnMeshes& meshes, int margin, MeshTiles old) {
+    MeshTiles to = std::move(old);
+    to.meshes = meshes.empty() ? nullptr : &meshes;
+    to.corners.resize(meshes.positions.size());
+    to.depths.resize(meshes.positions.size());
+    to.bounds.resize(meshes.triangles.size());
+    if (meshes.empty()) return to;
+    forEach(meshes.positions.size(), [&](std::size_t k) {
+        const dvec3 at(meshes.positions[k]);
+        const dvec3 view{dot(at, dvec3(frame.right)), dot(at, dvec3(frame.up)), dot(at, dvec3(frame.forward))};
+        to.corners[k] = onPicture(frame, view);
+        to.depths[k] = static_cast<float>(view.z);
+    });
+    std::vector<char> isCulled;
+    for (const Bounds<glm::vec3>& box : meshes.bounds) isCulled.push_back(isOutside(frame, box) ? 1 : 0);
+    forEach(meshes.triangles.size(), [&](std::size_t k) {
+        const DrawnTriangle& triangle = meshes.triangles[k];
+        to.bounds[k] = boundsOf(frame, to, triangle, isCulled[triangle.mesh] != 0);
+    });
+    to.tiles = listTriangles(frame, to.bounds, margin);
+    return to;
+}
+
+}  // namespace render

@@ -1,0 +1,41 @@
+// The triangles of mesh obstacles that a picture may show, listed for its tiles. Made by cpu_renderer.cpp once for each
+// picture, read by mesh_hits.cpp.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "render/picture/camera_frame.h"
+#include "render/prepare/drawn_meshes.h"
+#include "render/prepare/tiles.h"
+
+namespace render {
+
+/// A triangle on the picture.
+struct TriangleBounds {
+    Rect pixels;         ///< pixels whose samples it may cover; empty for a triangle that is not seen
+    float front = 0.0F;  ///< least view depth of a corner, m
+    float back = 0.0F;   ///< greatest view depth of a corner, m
+    glm::vec3 normal{};  ///< sum of the normals at the corners, scaled to unit length
+};
+
+struct MeshTiles {
+    const DrawnMeshes* meshes = nullptr;  ///< null without meshes, and the lists below are empty
+    /// The corners in homogeneous coordinates of the picture: (x w, y w, w) for a corner that is seen at x and y, in
+    /// pixels from the top left. w is the view depth in perspective and 1 in parallel projection. The corners of a
+    /// triangle need not lie before the eye.
+    std::vector<glm::dvec3> corners;
+    std::vector<float> depths;           ///< view depth of each corner, m
+    std::vector<TriangleBounds> bounds;  ///< of each triangle
+    CellLists tiles;                     ///< triangles that each tile may show, front to back
+};
+
+/// Lists the triangles of each tile. Those that are turned away from the eye are left out where the eye is outside of
+/// the box around their mesh: it cannot be inside of the solid, whose front hides them.
+/// @param margin  how far beside a tile a triangle may lie that the tile lists, pixels
+/// @param old     tiles that are no longer needed, whose memory is reused
+MeshTiles meshTiles(const CameraFrame& frame, const DrawnMeshes& meshes, int margin, MeshTiles old);
+
+}  // namespace render

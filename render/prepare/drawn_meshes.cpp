@@ -1,0 +1,81 @@
+// Corners are moved in parallel; each depends on itself alone.
+#include "render/prepare/drawn_meshes.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "render/picture/system_error.h"
+
+namespace render {
+
+namespace {
+
+constexpr std::size_t kChunk = 4096;  // corners or triangles that one task handles; chosen
+
+/// Calls visit(k) for all k below count, in parallel.
+template <typename Visit>
+void forEach(std::size_t count, const Visit& visit) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kChunk), [&](const auto& range) {
+        for (std::size_t k = range.begin(); k < range.end(); ++k) visit(k);
+    });
+}
+
+/// Places one mesh, whose corners and triangles begin at these indices.
+void place(const MeshObstacle& obstacle, glm::vec3 eye, std::size_t firstCorner, std::size_t firstTriangle,
+           DrawnMeshes& meshes) {
+    const SolidMesh& mesh = *obstacle.mesh;
+    const glm::vec3 offset = obstacle.position - eye;
+    forEach(mesh.positions.size(), [&](std::size_t k) {
+        meshes.positions[firstCorner + k] = obstacle.rotation * mesh.positions[k] + offset;
+        meshes.normals[firstCorner + k] = obstacle.rotation * mesh.normals[k];
+    });
+    const auto first = static_cast<std::uint32_t>(firstCorner);
+    const auto number = static_cast<std::uint32_t>(meshes.colors.size());
+    forEach(mesh.triangles.size(), [&](std::size_t k) {
+        const auto& [a, b, c] = mesh.triangles[k];
+        meshes.triangles[firstTriangle + k] = {{first + a, first + b, first + c}, number};
+    });
+    Bounds<glm::vec3> bounds;
+    for (std::size_t k = 0; k < mesh.positions.size(); ++k) bounds.add(meshes.positions[firstCorner + k]);
+    meshes.bounds.push_back(bounds);
+    meshes.colors.push_back(obstacle.color);
+}
+
+}  // namespace
+
+DrawnMeshes drawnMeshes(const View& view, glm::vec3 eye, DrawnMeshes old) {
+    DrawnMeshes meshes = std::move(old);
+    std::size_t corners = 0;
+    std::size_t triangles = 0;
+    for (const MeshObstacle& obstacle : view.meshObstacles) {
+        corners += obstacle.mesh->positions.size();
+        triangles += obstacle.mesh->triangles.size();
+    }
+    if (triangles > kMostTriangles || corners > 3 * kMostTriangles)
+        throw SystemError(fmt::format("drawing {} triangles: a picture has at most 2^27", triangles));
+    meshes.positions.resize(corners);
+    meshes.normals.resize(corners);
+    meshes.triangles.resize(triangles);
+    meshes.bounds.clear();
+    meshes.colors.clear();
+    corners = 0;
+    triangles = 0;
+    for (const MeshObstacle& obstacle : view.meshObstacles) {
+        place(obstacle, eye, corners, triangles, meshes);
+        corners += obstacle.mesh->positions.size();
+        triangles += obstacle.mesh->triangles.size();
+    }
+    return meshes;
+}
+
+Bounds<glm::vec3> boundsOf(const MeshObstacle& obstacle) {
+    Bounds<glm::vec3> bounds;
+    for (const glm::vec3 position : obstacle.mesh->positions)
+        bounds.add(obstacle.rotation * position + obstacle.position);
+    return bounds;
+}
+
+}  // namespace render
