@@ -1,6 +1,14 @@
 // Makes the obstacles of the simulation, and what is drawn of them, from the [[obstacle]] tables of a scene.
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+#include "scenes/build/build_motion.h"
+#include "scenes/build/build_shapes.h"
 #include "scenes/build/builders.h"
 #include "scenes/model/to_float.h"
+#include "scenes/shapes/mesh_distances.h"
+#include "scenes/shapes/tessellation.h"
 
 namespace scenes {
 namespace {
@@ -36,12 +44,44 @@ engine::Plane planeFrom(Section& section, BuildContext& context) {
     return plane;
 }
 
-engine::Obstacle obstacleFrom(Section& section, BuildContext& context) {
+/// A shape, and what is needed to draw it.
+struct BuiltShape {
+    engine::Obstacle shape;
+    std::shared_ptr<const render::SolidMesh> mesh;  ///< around the middle of the shape, where it is drawn as triangles
+    Vec3 middle = Vec3::Zero();                     ///< the point that the obstacle turns about by itself, m
+};
+
+BuiltShape turnedFrom(const Section& section) {
+    const ProfileSpec spec = profileFrom(section);
+    const Profile profile = refinedProfile(spec);
+    const double half = 0.5 * spec.thickness;
+    const Vec3& center = section.vector("center");
+    return {engine::revolutionSolid(engine::Revolution(profile, spec.isClosed, half), center),
+            std::make_shared<const render::SolidMesh>(revolutionMesh(profile, spec.isClosed, half)), center};
+}
+
+/// @param voxel  of the distances from the mesh, m
+BuiltShape meshObstacleFrom(const Section& section, double voxel, const BuildContext& context) {
+    const Mesh mesh = placedMeshFrom(section, context);
+    const Vec3 center = placementFrom(section, context).center;
+    return {engine::meshSolid(distancesOf(mesh, voxel, section.string("file")), center),
+            std::make_shared<const render::SolidMesh>(smoothMesh(mesh)), center};
+}
+
+BuiltShape shapeFrom(Section& section, double voxel, BuildContext& context) {
     const std::string& shape = section.string("shape");
-    if (shape == "plane") return planeFrom(section, context);
-    if (shape == "box") return engine::Box{section.vector("minimum"), section.vector("maximum")};
-    if (shape == "container") return engine::Container{section.vector("minimum"), section.vector("maximum")};
-    return engine::Sphere{section.vector("center"), section.number("radius"), section.string("repulsor") == "literal"};
+    if (isTurned(section)) return turnedFrom(section);
+    if (shape == "mesh") return meshObstacleFrom(section, voxel, context);
+    if (shape == "plane") return {planeFrom(section, context), {}, section.vector("point")};
+    if (shape == "sphere") {
+        const Vec3& center = section.vector("center");
+        return {engine::Sphere{center, section.number("radius"), section.string("repulsor") == "literal"}, {}, center};
+    }
+    const Vec3& low = section.vector("minimum");
+    const Vec3& high = section.vector("maximum");
+    const Vec3 middle = 0.5 * (low + high);
+    if (shape == "container") return {engine::Container{low, high}, {}, middle};
+    return {engine::Box{low, high}, std::make_shared<const render::SolidMesh>(cuboidMesh(high - low)), middle};
 }
 
 /// How an obstacle answers particles under the scaled wall law. Reports keys that the scene's law does not have.
@@ -63,8 +103,31 @@ engine::WallSurface surfaceFrom(Section& section, engine::WallLaw law, BuildCont
     return surface;
 }
 
-/// Adds an obstacle to what is drawn. Planes are not drawn; boxes and containers may have edges.
-void addToLook(Section& section, const Section& lookSection, Look& look, BuildContext& context) {
+using Line = std::pair<Vec3, Vec3>;
+
+/// A box's twelve edges, each once: from every corner along each axis in which the corner is at the minimum. Bits 0, 1
+/// and 2 of a corner's number select the maximum in x, y and z.
+std::vector<Line> edgesOfBox(const Vec3& minimum, const Vec3& maximum) {
+    const auto corner = [&](unsigned number) {
+        return Vec3((number & 1U) != 0 ? maximum.x() : minimum.x(), (number & 2U) != 0 ? maximum.y() : minimum.y(),
+                    (number & 4U) != 0 ? maximum.z() : minimum.z());
+    };
+    std::vector<Line> lines;
+    for (unsigned number = 0; number < 8; ++number)
+        for (unsigned axis = 1; axis < 8; axis *= 2)
+            if ((number & axis) == 0) lines.emplace_back(corner(number), corner(number | axis));
+    return lines;
+}
+
+/// The edges of an obstacle: those of a box or container, and the sharp ones of a solid's mesh.
+std::vector<Line> edgesOf(const Section& section, const BuiltShape& built) {
+    if (section.has("minimum")) return edgesOfBox(section.vector("minimum"), section.vector("maximum"));
+    return sharpEdges(*built.mesh, built.middle);
+}
+
+/// Adds an obstacle to what is drawn. Planes are not drawn; all but spheres may have edges.
+void addToLook(Section& section, const BuiltShape& built, std::size_t obstacle, bool isPlaced,
+               const Section& lookSection, Look& look, BuildContext& context) {
     const std::string& shape = section.string("shape");
     if (shape == "plane") return;
     const bool isContainer = shape == "container";
@@ -79,35 +142,88 @@ void addToLook(Section& section, const Section& lookSection, Look& look, BuildCo
     }
     const glm::vec3 color = toFloat(section.vector("color"));
     if (shape == "sphere") {
-        look.spheres.push_back({section.vector("center"), section.number("radius"), color});
+        look.spheres.push_back({obstacle, section.vector("center"), section.number("radius"), color});
         return;
     }
-    DrawnBox box{section.vector("minimum"), section.vector("maximum"), {}, {}};
-    if (!isContainer) box.faces = color;
-    if (section.boolean("edges")) box.edges = isContainer ? color : toFloat(edgeColor);
-    look.boxes.push_back(box);
+    if (shape == "box" && !isPlaced)
+        look.boxes.push_back({obstacle, section.vector("minimum"), section.vector("maximum"), color});
+    else if (!isContainer)
+        look.solids.push_back({obstacle, built.mesh, built.middle, color});
+    if (section.boolean("edges"))
+        look.edges.push_back({obstacle, edgesOf(section, built), isContainer ? color : toFloat(edgeColor)});
+}
+
+/// Reports what the paper's walls do not have.
+void checkPaperWalls(Section& section, BuildContext& context) {
+    const std::string& shape = section.string("shape");
+    if (isTurned(section) || shape == "mesh")
+        report(section, "shape", context, "a {} is not an obstacle of the paper's walls; leave out physics.wall", shape);
+    for (const char* name : {"rotation", "velocity", "spin", "pivot", "until", "record"})
+        if (section.isGiven(name))
+            report(section, name, context, "{} does not apply to the paper's walls, which rest; leave out physics.wall",
+                   name);
+    for (const Section& key : section.list("key")) {
+        section.markInvalid();
+        context.problems.add(key.position(), "the paper's walls rest; leave out physics.wall, or the keys of the path");
+    }
+}
+
+/// The smallest radius that a particle of the scene can have, m.
+double smallestRadius(const Scene& scene) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const engine::Material& material : scene.setup.materials) smallest = std::min(smallest, material.radius);
+    for (const double radius : scene.setup.initial.radius) smallest = std::min(smallest, radius);
+    return smallest;
+}
+
+/// Checks the keys of an obstacle's shape against one another.
+void checkShape(Section& section, BuildContext& context) {
+    const std::string& shape = section.string("shape");
+    if (shape == "box" || shape == "container") {
+        completeCorners(section, context);
+        checkCorners(section, Flatness::forbidden, context);
+    }
+    if (shape == "sphere" && !section.isGiven("center")) reportMissing(section, "center", context);
+}
+
+void buildObstacle(Section& section, double voxel, const Section& look, Scene& scene, BuildContext& context) {
+    engine::Obstacles& obstacles = scene.setup.obstacles;
+    const BuiltShape built = shapeFrom(section, voxel, context);
+    const engine::Motion motion = motionFrom(section, built.middle, context);
+    if (!section.isValid()) return;
+    const std::size_t index = obstacles.shapes.size();
+    obstacles.shapes.push_back(built.shape);
+    obstacles.surfaces.push_back(surfaceFrom(section, obstacles.wall, context));
+    obstacles.motions.push_back(motion);
+    obstacles.areRecorded.push_back(section.boolean("record"));
+    addToLook(section, built, index, !motion.isIdentity(), look, scene.look, context);
 }
 
 }  // namespace
 
 void buildObstacles(std::vector<Section>& sections, const Section& physics, const Section& look, Scene& scene,
                     BuildContext& context) {
+    engine::Obstacles& obstacles = scene.setup.obstacles;
     const bool isPaper = physics.has("wall") && physics.string("wall") == "paper";
-    scene.setup.obstacles.wall = isPaper ? engine::WallLaw::paper : engine::WallLaw::scaled;
+    obstacles.wall = isPaper ? engine::WallLaw::paper : engine::WallLaw::scaled;
+    // Voxels of meshes are half a particle's radius wide.
+    const double voxel = 0.5 * smallestRadius(scene);
     for (Section& section : sections) {
         if (!section.has("shape")) continue;
-        const std::string& shape = section.string("shape");
-        if (shape == "box" || shape == "container") {
-            completeCorners(section, context);
-            checkCorners(section, Flatness::forbidden, context);
-        }
-        if (shape == "sphere" && !section.isGiven("center")) reportMissing(section, "center", context);
+        checkShape(section, context);
+        if (isPaper) checkPaperWalls(section, context);
         if (!section.isValid()) continue;
-        engine::Obstacles& obstacles = scene.setup.obstacles;
-        obstacles.shapes.push_back(obstacleFrom(section, context));
-        obstacles.surfaces.push_back(surfaceFrom(section, obstacles.wall, context));
-        addToLook(section, look, scene.look, context);
+        try {
+            buildObstacle(section, voxel, look, scene, context);
+        } catch (const InputError& error) {
+            section.markInvalid();
+            context.problems.add(section.position("file"), error);
+        }
     }
+    // A scene without motion has no poses to compute.
+    if (std::ranges::all_of(obstacles.motions, &engine::Motion::isIdentity)) obstacles.motions.clear();
+    if (std::ranges::none_of(obstacles.areRecorded, [](bool isRecorded) { return isRecorded; }))
+        obstacles.areRecorded.clear();
 }
 
 }  // namespace scenes

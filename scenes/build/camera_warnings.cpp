@@ -48,11 +48,11 @@ class Sight {
     }
 
     /// Whether any of a box may be in the picture.
-    bool mayShow(const DrawnBox& box) const {
+    bool mayShow(const engine::BoundingBox& box) const {
         return std::ranges::all_of(sides_, [&](const Side& side) {
             Vec3 corner;  // the one farthest along the normal
             for (int axis = 0; axis < 3; ++axis)
-                corner[axis] = side.normal[axis] > 0.0 ? box.maximum[axis] : box.minimum[axis];
+                corner[axis] = side.normal[axis] > 0.0 ? box.high[axis] : box.low[axis];
             return engine::dot(corner - eye_, side.normal) + side.offset > 0.0;
         });
     }
@@ -66,10 +66,18 @@ class Sight {
     std::array<Side, 5> sides_;
 };
 
-bool showsObstacle(const Sight& sight, const Look& look) {
-    return std::ranges::any_of(look.boxes, [&](const DrawnBox& box) { return sight.mayShow(box); }) ||
-           std::ranges::any_of(look.spheres,
-                               [&](const DrawnSphere& ball) { return sight.mayShow(ball.center, ball.radius); });
+/// Whether any of the obstacles of which surfaces are drawn may be in the picture at the start.
+bool showsObstacle(const Sight& sight, const Scene& scene) {
+    const engine::Obstacles& obstacles = scene.setup.obstacles;
+    const auto mayShow = [&](const auto& drawn) {
+        const engine::BoundingBox bounds = *engine::boundsOf(obstacles.shapes[drawn.obstacle]);
+        return sight.mayShow(engine::isPlaced(obstacles, drawn.obstacle)
+                                 ? engine::boundsIn(engine::poseAt(obstacles.motions[drawn.obstacle], 0.0), bounds)
+                                 : bounds);
+    };
+    const Look& look = scene.look;
+    return std::ranges::any_of(look.boxes, mayShow) || std::ranges::any_of(look.spheres, mayShow) ||
+           std::ranges::any_of(look.solids, mayShow);
 }
 
 bool showsStart(const Sight& sight, const Scene& scene) {
@@ -118,7 +126,7 @@ bool showsAnything(const Scene& scene) {
     for (int k = 0; k < kMoments; ++k) {
         const double time = scene.duration * k / (kMoments - 1);
         const Sight sight(cameraAt(scene.camera, time), scene.size);
-        if (showsObstacle(sight, scene.look) || showsStart(sight, scene)) return true;
+        if (showsObstacle(sight, scene) || showsStart(sight, scene)) return true;
         if (std::ranges::any_of(flights, [&](const Flight& each) { return showsFlight(sight, scene, each, time); }))
             return true;
     }

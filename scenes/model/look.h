@@ -2,7 +2,10 @@
 // moment, which makes the renderer's input.
 #pragma once
 
+#include <cstddef>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "engine/core/vec3.h"
@@ -22,19 +25,36 @@ struct CameraPlacement {
 /// The quantity that a particle's color shows.
 enum class ColorBy { material, speed, age };
 
-/// A sphere that is drawn of an obstacle.
+/// A sphere that is drawn of an obstacle. What is drawn of an obstacle is given where its shape is; the pose of the
+/// obstacle tells where that is in the scene.
 struct DrawnSphere {
+    std::size_t obstacle = 0;               ///< index of the obstacle
     engine::Vec3 center = {0.0, 0.0, 0.0};  ///< m
     double radius = 0.5;                    ///< m
     glm::vec3 color{0.5F};                  ///< linear RGB
 };
 
-/// A box that is drawn of an obstacle: its faces, its edges, or both.
+/// An axis-aligned box that is drawn of an obstacle which stays where it is.
 struct DrawnBox {
+    std::size_t obstacle = 0;                ///< index of the obstacle
     engine::Vec3 minimum = {0.0, 0.0, 0.0};  ///< m
     engine::Vec3 maximum = {0.0, 0.0, 0.0};  ///< m
-    std::optional<glm::vec3> faces;          ///< color of the faces, linear RGB
-    std::optional<glm::vec3> edges;          ///< color of the edges, linear RGB
+    glm::vec3 color{0.5F};                   ///< linear RGB
+};
+
+/// The surface of an obstacle that is drawn as triangles.
+struct DrawnSolid {
+    std::size_t obstacle = 0;                       ///< index of the obstacle
+    std::shared_ptr<const render::SolidMesh> mesh;  ///< around the origin below
+    engine::Vec3 origin = {0.0, 0.0, 0.0};          ///< m
+    glm::vec3 color{0.5F};                          ///< linear RGB
+};
+
+/// Lines that are drawn of an obstacle.
+struct DrawnEdges {
+    std::size_t obstacle = 0;                                  ///< index of the obstacle
+    std::vector<std::pair<engine::Vec3, engine::Vec3>> lines;  ///< m
+    glm::vec3 color{1.0F, 0.9F, 0.0F};                         ///< linear RGB
 };
 
 /// How a scene is drawn, apart from its cameras: tables [look] and [overlay], and what is drawn of the obstacles.
@@ -44,7 +64,9 @@ struct Look {
     render::View common;
     std::vector<DrawnSphere> spheres;
     std::vector<DrawnBox> boxes;
-    float edgeWidth = 1.5F;     ///< width of the boxes' edges, pixels
+    std::vector<DrawnSolid> solids;
+    std::vector<DrawnEdges> edges;
+    float edgeWidth = 1.5F;     ///< width of the edges, pixels
     double groundHeight = 0.0;  ///< height of the ground, if there is one, m
     bool hasTimeStamp = false;
     ColorBy colorBy = ColorBy::material;

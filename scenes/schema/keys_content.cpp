@@ -123,27 +123,70 @@ std::vector<Key> obstacleKeys() {
     return {
         key("shape", Type::choice, "", "shape of the obstacle; a container is the inside of a box")
             .required()
-            .oneOf({"plane", "box", "container", "sphere"}),
+            .oneOf({"plane", "box", "container", "sphere", "cylinder", "cone", "frustum", "capsule", "revolution",
+                    "mesh"}),
         position("point", "any point of the plane").defaultsTo("[0, 0, 0]").onlyFor({"plane"}),
         key("normal", Type::vec3, "", "direction away from the solid side, of any length")
             .defaultsTo("[0, 1, 0]")
             .onlyFor({"plane"}),
         position("minimum", kMinimumHelp).derivedAs("from center and size").onlyFor({"box", "container"}),
         position("maximum", kMaximumHelp).derivedAs("from center and size").onlyFor({"box", "container"}),
-        position("center", "center; required for a sphere")
+        position("center",
+                 "center, required for all but box, container and mesh; the origin of a profile; without it, a mesh is "
+                 "where its file has it")
             .derivedAs("from minimum and maximum")
-            .onlyFor({"box", "container", "sphere"}),
+            .onlyFor({"box", "container", "sphere", "cylinder", "cone", "frustum", "capsule", "revolution", "mesh"}),
         key("size", Type::vec3, "m", "edge lengths")
             .derivedAs("from minimum and maximum")
             .within(kPositive)
             .onlyFor({"box", "container"}),
-        length("radius", "radius of the sphere").required().onlyFor({"sphere"}),
+        length("radius", "radius; of a cone or frustum, at its bottom")
+            .required()
+            .onlyFor({"sphere", "cylinder", "cone", "frustum", "capsule"}),
+        key("top_radius", Type::number, "m", "radius of a frustum at its top; it may be 0")
+            .required()
+            .within({.low = 0.0, .high = engine::kWorldLimit})
+            .onlyFor({"frustum"}),
+        length("height", "height, along y before the rotation; of a capsule, from end to end")
+            .required()
+            .onlyFor({"cylinder", "cone", "frustum", "capsule"}),
+        key("profile", Type::pairList, "m", kProfileHelp).required().within(kWithinWorld).onlyFor({"revolution"}),
+        key("closed", Type::boolean, "", kClosedHelp)
+            .derivedAs("true without a thickness, false with one")
+            .onlyFor({"revolution"}),
+        key("smooth", Type::boolean, "", kSmoothHelp).defaultsTo("false").onlyFor({"revolution"}),
+        key("fillet", Type::number, "m", kFilletHelp)
+            .derivedAs("the thickness of a wall, or a fiftieth of the size of a solid")
+            .within({.low = 0.0, .high = engine::kWorldLimit})
+            .onlyFor({"revolution"}),
+        length("thickness", "thickness of the wall along a profile")
+            .derivedAs("the inside of the profile is solid")
+            .onlyFor({"revolution"}),
+        key("file", Type::string, "", "closed mesh, relative to the scene file: OBJ, STL, PLY or glTF")
+            .required()
+            .onlyFor({"mesh"}),
+        key("scale", Type::number, "", kScaleHelp)
+            .defaultsTo("1")
+            .within({.low = 0.0, .high = 1e9, .isLowExcluded = true})
+            .onlyFor({"mesh"}),
         key("repulsor", Type::choice, "",
             "what repels particles: a repulsor below the surface, or one as large as the sphere, for the paper's walls "
             "alone")
             .defaultsTo("\"surface\"")
             .oneOf({"surface", "literal"})
             .onlyFor({"sphere"}),
+        key("rotation", Type::vec3, "degrees", "turns about the x axis, then y, then z, around the pivot")
+            .defaultsTo("[0, 0, 0]")
+            .within(kDegrees),
+        velocity("velocity", "velocity of the obstacle").defaultsTo("[0, 0, 0]"),
+        key("spin", Type::vec3, "1/s", "turns a second about an axis through the pivot, which the vector points along")
+            .defaultsTo("[0, 0, 0]")
+            .within({-1e4, 1e4}),
+        position("pivot", "point that the obstacle turns about, where it is placed without motion")
+            .derivedAs("the center; of a plane, its point"),
+        key("until", Type::number, "s", "the obstacle is taken away at this time").derivedAs("no end").within(kPositive),
+        key("record", Type::boolean, "", "whether its load (force, torque, impulse and work) is recorded")
+            .derivedAs("true for what moves"),
         key("restitution", Type::number, "", "speed after a rebound over the speed before; not of the paper's walls")
             .derivedAs("0.2, less for viscous materials")
             .within(kUnitInterval),
@@ -154,17 +197,17 @@ std::vector<Key> obstacleKeys() {
             "stress with which the surface holds particles that touch it; not of the paper's walls")
             .defaultsTo("0")
             .within(kNotNegative),
-        key("visible", Type::boolean, "", "whether the obstacle is drawn")
+        key("visible", Type::boolean, "", "whether the obstacle is drawn; planes never are")
             .defaultsTo("true")
-            .onlyFor({"box", "container", "sphere"})
+            .onlyFor({"box", "container", "sphere", "cylinder", "cone", "frustum", "capsule", "revolution", "mesh"})
             .notSimulated(),
-        key("edges", Type::boolean, "", "whether the edges are drawn as lines")
-            .derivedAs("true for a container, false for a box")
-            .onlyFor({"box", "container"})
+        key("edges", Type::boolean, "", "whether the sharp edges are drawn as lines")
+            .derivedAs("true for a container, false for others")
+            .onlyFor({"box", "container", "cylinder", "cone", "frustum", "capsule", "revolution", "mesh"})
             .notSimulated(),
         color("color", "color of the surface, or of the edges of a container")
             .derivedAs("gray; for a container look.edge_color")
-            .onlyFor({"box", "container", "sphere"})
+            .onlyFor({"box", "container", "sphere", "cylinder", "cone", "frustum", "capsule", "revolution", "mesh"})
             .notSimulated(),
     };
 }

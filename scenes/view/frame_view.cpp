@@ -47,29 +47,54 @@ render::Camera cameraOf(const CameraPlacement& placement, const Vec3& origin) {
             .halfHeight = toFloat(placement.halfHeight)};
 }
 
-/// A corner of a box by its number from 0 to 7: bits 0, 1 and 2 of the number select the maximum in x, y and z.
-glm::vec3 cornerOf(const render::BoxObstacle& box, unsigned corner) {
-    return {(corner & 1U) != 0 ? box.maximum.x : box.minimum.x, (corner & 2U) != 0 ? box.maximum.y : box.minimum.y,
-            (corner & 4U) != 0 ? box.maximum.z : box.minimum.z};
-}
+/// Where the obstacles of a scene are at a time, relative to the origin of a view.
+struct ObstaclePlaces {
+    const engine::Obstacles& obstacles;
+    double time;
+    const Vec3& origin;
 
-/// Adds a box's twelve edges, each once: from every corner along each axis in which the corner is at the minimum.
-void addEdges(const render::BoxObstacle& box, const glm::vec3& color, float width, render::View& view) {
-    for (unsigned corner = 0; corner < 8; ++corner)
-        for (unsigned axis = 1; axis < 8; axis *= 2)
-            if ((corner & axis) == 0)
-                view.edges.push_back({cornerOf(box, corner), cornerOf(box, corner | axis), color, width});
+    /// Whether an obstacle, given by its index, is still there.
+    bool isThere(std::size_t obstacle) const {
+        return obstacles.motions.empty() || time < obstacles.motions[obstacle].until;
+    }
+
+    engine::Pose pose(std::size_t obstacle) const {
+        return engine::isPlaced(obstacles, obstacle) ? engine::poseAt(obstacles.motions[obstacle], time)
+                                                     : engine::Pose{};
+    }
+
+    glm::vec3 inView(const engine::Pose& pose, const Vec3& point) const {
+        return toFloat(pose.toScene(point) - origin);
+    }
+};
+
+glm::mat3 toFloat(const engine::Matrix3& matrix) {
+    glm::mat3 rotation;
+    for (int column = 0; column < 3; ++column) rotation[column] = scenes::toFloat(Vec3(matrix.col(column)));
+    return rotation;
 }
 
 /// Adds what is drawn of the obstacles.
-void addObstacles(const Look& look, const Vec3& origin, render::View& view) {
+void addObstacles(const Look& look, const ObstaclePlaces& places, render::View& view) {
     for (const DrawnSphere& sphere : look.spheres)
-        view.sphereObstacles.push_back({toFloat(sphere.center - origin), toFloat(sphere.radius), sphere.color});
-    for (const DrawnBox& drawn : look.boxes) {
-        const render::BoxObstacle box{toFloat(drawn.minimum - origin), toFloat(drawn.maximum - origin),
-                                      drawn.faces.value_or(glm::vec3(0.0F))};
-        if (drawn.faces) view.boxObstacles.push_back(box);
-        if (drawn.edges) addEdges(box, *drawn.edges, look.edgeWidth, view);
+        if (places.isThere(sphere.obstacle))
+            view.sphereObstacles.push_back(
+                {places.inView(places.pose(sphere.obstacle), sphere.center), toFloat(sphere.radius), sphere.color});
+    for (const DrawnBox& box : look.boxes)
+        if (places.isThere(box.obstacle))
+            view.boxObstacles.push_back(
+                {toFloat(Vec3(box.minimum - places.origin)), toFloat(Vec3(box.maximum - places.origin)), box.color});
+    for (const DrawnSolid& solid : look.solids) {
+        if (!places.isThere(solid.obstacle)) continue;
+        const engine::Pose pose = places.pose(solid.obstacle);
+        view.meshObstacles.push_back(
+            {solid.mesh, toFloat(pose.rotation), places.inView(pose, solid.origin), solid.color});
+    }
+    for (const DrawnEdges& edges : look.edges) {
+        if (!places.isThere(edges.obstacle)) continue;
+        const engine::Pose pose = places.pose(edges.obstacle);
+        for (const auto& [from, to] : edges.lines)
+            view.edges.push_back({places.inView(pose, from), places.inView(pose, to), edges.color, look.edgeWidth});
     }
 }
 
@@ -112,7 +137,7 @@ render::View frameView(const Scene& scene, const engine::Simulation& simulation)
         // The ground fades with the distance from the point below the camera's target.
         view.ground->center = {view.camera.target.x, view.ground->height, view.camera.target.z};
     }
-    addObstacles(scene.look, origin, view);
+    addObstacles(scene.look, {scene.setup.obstacles, time, origin}, view);
     if (scene.look.hasTimeStamp) view.overlay.stamp = timeText(scene, time);
     view.particles = drawnParticles(scene, simulation, origin);
     return view;
