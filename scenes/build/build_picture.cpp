@@ -25,16 +25,12 @@ void checkCamera(Section& section, BuildContext& context) {
         report(section, "up", context, "up lies along the direction of view, must point across it");
 }
 
-/// Checks the cameras of a path together: their times must increase, and the projection must not change, because
-/// perspective and orthographic projection cannot be interpolated.
+/// Checks the cameras of a path together: each needs a time, and the projection must not change, because perspective
+/// and orthographic projection cannot be interpolated.
 void checkPath(std::vector<Section>& sections, BuildContext& context) {
     const Section* previous = nullptr;
     for (Section& section : sections) {
         if (!section.isGiven("time")) reportMissing(section, "time", context);
-        if (previous != nullptr && previous->has("time") && section.has("time") &&
-            section.number("time") <= previous->number("time"))
-            report(section, "time", context, "time is {}, must be after that of the camera before, {} (seconds)",
-                   section.canonical("time"), previous->canonical("time"));
         if (previous != nullptr && section.string("projection") != previous->string("projection"))
             report(section, "projection", context, "projection is {}, must stay {} along the path",
                    section.canonical("projection"), previous->canonical("projection"));

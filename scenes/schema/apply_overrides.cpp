@@ -12,13 +12,18 @@
 namespace scenes {
 namespace {
 
-/// An override such as "body[0].radius=0.5".
+/// A table in the key of an override, such as body[0].
+struct TableStep {
+    std::string name;
+    std::optional<std::size_t> index;
+};
+
+/// An override such as "body[0].radius=0.5" or "obstacle[0].key[1].time=2".
 struct Assignment {
     SourcePosition position;
     std::string value;
-    std::string table;  ///< name of the table; empty for a key above the first table
-    std::optional<std::size_t> index;
-    std::string name;
+    std::vector<TableStep> tables;  ///< each within the one before; empty for a key above the first table
+    std::string key;
 };
 
 std::optional<std::size_t> wholeNumber(const std::string& text) {
@@ -45,15 +50,21 @@ std::vector<std::string> partsOf(const std::string& path) {
 std::optional<Assignment> parseAssignment(const std::string& text, const SourcePosition& position) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) return std::nullopt;
-    const std::string value = text.substr(equals + 1);
     const std::vector<std::string> parts = partsOf(text.substr(0, equals));
-    if (std::ranges::any_of(parts, [](const std::string& part) { return part.empty(); })) return std::nullopt;
-    if (parts.size() == 1) return Assignment{position, value, "", std::nullopt, parts[0]};
-    if (parts.size() == 2 && !wholeNumber(parts[1]))
-        return Assignment{position, value, parts[0], std::nullopt, parts[1]};
-    if (parts.size() == 3 && wholeNumber(parts[1]))
-        return Assignment{position, value, parts[0], wholeNumber(parts[1]), parts[2]};
-    return std::nullopt;
+    if (parts.empty() || std::ranges::any_of(parts, [](const std::string& part) { return part.empty(); }))
+        return std::nullopt;
+    Assignment assignment{position, text.substr(equals + 1), {}, parts.back()};
+    std::string table;
+    for (std::size_t at = 0; at + 1 < parts.size(); ++at) {
+        table += (table.empty() ? "" : ".") + parts[at];
+        // Only the schema tells which names between dots are tables within tables.
+        if (!assignment.tables.empty() && findTable(table) == nullptr) return std::nullopt;
+        assignment.tables.push_back({parts[at], std::nullopt});
+        if (at + 2 < parts.size() && wholeNumber(parts[at + 1]))
+            assignment.tables.back().index = wholeNumber(parts[++at]);
+    }
+    if (parts.size() > 1 && wholeNumber(parts.back())) return std::nullopt;
+    return assignment;
 }
 
 Entry& findOrAdd(Value& table, const std::string& key, const SourcePosition& position) {
@@ -66,41 +77,64 @@ Entry& findOrAdd(Value& table, const std::string& key, const SourcePosition& pos
     return table.entries.back();
 }
 
-/// The table of the scene that an override writes to; nullptr, with the problem recorded, if there is no such table.
-Value* tableOf(Value& root, const Assignment& assignment, ProblemList& problems) {
-    if (assignment.table.empty()) return &root;
-    const TableInfo* info = findTable(assignment.table);
+/// Where an override looks for the next of its tables.
+struct Location {
+    Value* table;      ///< the scene, or the table found before
+    std::string path;  ///< as in messages, "obstacle[0]"; empty for the scene
+    std::string name;  ///< of the table in the schema: "obstacle"; empty for the scene
+};
+
+/// Goes from a table to one within it, or returns false with the problem recorded if there is none.
+/// @param rest  what follows the step in the key of the override
+bool enter(Location& location, const TableStep& step, const std::string& rest, const SourcePosition& position,
+           ProblemList& problems) {
+    const std::string name = location.name.empty() ? step.name : location.name + '.' + step.name;
+    const std::string path = location.path.empty() ? step.name : location.path + '.' + step.name;
+    const TableInfo* info = findTable(name);
     const bool isListOnly = info != nullptr && info->allowsList && !info->allowsSingle;
-    const Entry* existing = findEntry(root, assignment.table);
-    if (existing == nullptr && !isListOnly && assignment.index.value_or(0) == 0)
-        return &findOrAdd(root, assignment.table, assignment.position).value;
+    const Entry* existing = findEntry(*location.table, step.name);
     const bool isArray = existing != nullptr && existing->value.kind == ValueKind::array;
     const std::size_t count = isArray ? existing->value.items.size() : existing != nullptr ? 1 : 0;
-    if (assignment.index.value_or(0) >= count) {
-        problems.add(assignment.position,
-                     count == 0 ? fmt::format("the scene has no [[{}]]", assignment.table)
-                                : fmt::format("the scene has only {} [[{}]], counted from 0", count, assignment.table));
-        return nullptr;
+    const bool isAdded = existing == nullptr && !isListOnly && step.index.value_or(0) == 0;
+    const std::string owner = location.path.empty() ? "the scene" : location.path;
+    if (!isAdded && step.index.value_or(0) >= count) {
+        problems.add(position, count == 0 ? fmt::format("{} has no [[{}]]", owner, name)
+                                          : fmt::format("{} has only {} [[{}]], counted from 0", owner, count, name));
+        return false;
     }
-    Value& value = findOrAdd(root, assignment.table, assignment.position).value;
-    if (!isArray) return &value;
-    if (assignment.index) return &value.items[*assignment.index];
-    problems.add(assignment.position,
-                 fmt::format("{} is a list, write {}[0].{}", assignment.table, assignment.table, assignment.name));
-    return nullptr;
+    if (isArray && !step.index) {
+        problems.add(position, fmt::format("{} is a list, write {}[0].{}", path, path, rest));
+        return false;
+    }
+    Value& value = findOrAdd(*location.table, step.name, position).value;
+    location = {isArray ? &value.items[*step.index] : &value,
+                step.index ? fmt::format("{}[{}]", path, *step.index) : path, name};
+    return true;
+}
+
+/// The part of an override's key after the table with the given index.
+std::string restOf(const Assignment& assignment, std::size_t table) {
+    std::string rest;
+    for (std::size_t next = table + 1; next < assignment.tables.size(); ++next) {
+        const TableStep& step = assignment.tables[next];
+        rest += step.index ? fmt::format("{}[{}].", step.name, *step.index) : step.name + '.';
+    }
+    return rest + assignment.key;
 }
 
 void apply(Value& root, const Assignment& assignment, ProblemList& problems) {
-    Value* table = tableOf(root, assignment, problems);
-    if (table == nullptr) return;
-    if (table->kind != ValueKind::table) {
+    Location location{&root, "", ""};
+    for (std::size_t table = 0; table < assignment.tables.size(); ++table) {
+        if (!enter(location, assignment.tables[table], restOf(assignment, table), assignment.position, problems))
+            return;
+        if (location.table->kind == ValueKind::table) continue;
         // Where the schema expects a table, the later validation reports what the scene has instead.
-        if (findTable(assignment.table) == nullptr)
-            problems.add(assignment.position, fmt::format("{} is not a table, {} has no key {}", assignment.table,
-                                                          assignment.table, assignment.name));
+        if (findTable(location.name) == nullptr)
+            problems.add(assignment.position, fmt::format("{} is not a table, {} has no key {}", location.name,
+                                                          location.name, restOf(assignment, table)));
         return;
     }
-    Entry& entry = findOrAdd(*table, assignment.name, assignment.position);
+    Entry& entry = findOrAdd(*location.table, assignment.key, assignment.position);
     entry.position = assignment.position;
     entry.value = parseOverrideValue(assignment.value, assignment.position.overrideIndex);
 }

@@ -96,10 +96,14 @@ std::size_t statementAt(const RepairableText& source, std::size_t line) {
     return runsOn ? index - 1 : index;
 }
 
-/// Index of the last line of the table that a header opens.
+/// Index of the last line of the table that a header opens, with the tables within it.
 std::size_t sectionEnd(const RepairableText& source, std::size_t header) {
-    for (std::size_t next = header + 1; next < source.statements.size(); ++next)
-        if (source.statements[next].kind == StatementKind::tableHeader) return source.statements[next].firstLine - 1;
+    const std::string inside = source.statements[header].name + '.';
+    for (std::size_t next = header + 1; next < source.statements.size(); ++next) {
+        const Statement& statement = source.statements[next];
+        if (statement.kind == StatementKind::tableHeader && !statement.name.starts_with(inside))
+            return statement.firstLine - 1;
+    }
     return source.lines.size() - 1;
 }
 

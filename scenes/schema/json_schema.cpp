@@ -72,6 +72,8 @@ Json typeSchema(const Key& key) {
     return {};
 }
 
+Json tableValueSchema(const TableInfo& table);
+
 Json keySchema(const Key& key) {
     Json json = typeSchema(key);
     std::string description(key.help);
@@ -83,8 +85,8 @@ Json keySchema(const Key& key) {
     return json;
 }
 
-/// The JSON Schema of a table with the given keys and no others.
-Json objectSchema(const std::vector<const Key*>& keys) {
+/// The JSON Schema of a table with the given keys, the tables within it, and nothing else.
+Json objectSchema(std::string_view table, const std::vector<const Key*>& keys) {
     Json json = {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
     Json required = Json::array();
     for (const Key* key : keys) {
@@ -92,6 +94,8 @@ Json objectSchema(const std::vector<const Key*>& keys) {
         if (key->isRequired) required.push_back(key->name);
     }
     if (!required.empty()) json["required"] = required;
+    for (const TableInfo* within : tablesWithin(table))
+        json["properties"][std::string(localNameOf(*within))] = tableValueSchema(*within);
     return json;
 }
 
@@ -100,7 +104,7 @@ Json variantSchema(const TableInfo& table, const Key& discriminator, std::string
     std::vector<const Key*> keys;
     for (const Key* key : keysOf(table.name))
         if (key->appliesTo.empty() || std::ranges::count(key->appliesTo, variant) > 0) keys.push_back(key);
-    Json json = objectSchema(keys);
+    Json json = objectSchema(table.name, keys);
     Json& choice = json["properties"][std::string(discriminator.name)];
     choice.erase("enum");
     choice["const"] = variant;
@@ -113,7 +117,7 @@ Json variantSchema(const TableInfo& table, const Key& discriminator, std::string
 }
 
 Json tableSchema(const TableInfo& table) {
-    if (table.discriminator.empty()) return objectSchema(keysOf(table.name));
+    if (table.discriminator.empty()) return objectSchema(table.name, keysOf(table.name));
     const Key& discriminator = *findKey(table.name, table.discriminator);
     Json variants = Json::array();
     for (const std::string_view variant : discriminator.choices)
@@ -140,11 +144,11 @@ std::string jsonSchema() {
     Json json = {{"$schema", "http://json-schema.org/draft-07/schema#"},
                  {"title", "globular scene"},
                  {"description", "A scene file of globular, a particle simulation of liquids, powders and solids"}};
-    json.update(objectSchema(keysOf("")));
+    json.update(objectSchema("", keysOf("")));
     Json definitions = Json::object();
     for (const TableInfo& table : tables()) {
         if (table.name.empty()) continue;
-        json["properties"][std::string(table.name)] = tableValueSchema(table);
+        if (isTableName(table.name)) json["properties"][std::string(table.name)] = tableValueSchema(table);
         definitions[std::string(table.name)] = tableSchema(table);
     }
     json["definitions"] = definitions;

@@ -1,4 +1,4 @@
-// Keys of [[body]], [[emitter]] and [[obstacle]].
+// Keys of [[body]], [[emitter]] and [[obstacle]], and of the paths of the latter two.
 #include "scenes/schema/keys.h"
 
 namespace scenes {
@@ -6,6 +6,21 @@ namespace {
 
 constexpr std::string_view kMinimumHelp = "corner with the smallest coordinates";
 constexpr std::string_view kMaximumHelp = "corner with the largest coordinates";
+
+/// Angles of a path, degrees. Their sines are computed to the last bits up to far more.
+constexpr Range kAngles{.low = -1e6, .high = 1e6};
+
+/// Keys of a moment on the path of an object.
+std::vector<Key> pathKeys(std::string_view positionHelp, std::string_view rotationHelp, std::string_view first) {
+    return {
+        key("time", Type::number, "s", "when; each time has to be after the one before")
+            .required()
+            .within(kNotNegative)
+            .notInherited(),
+        position("position", positionHelp).derivedAs(first),
+        key("rotation", Type::vec3, "degrees", rotationHelp).derivedAs(first).within(kAngles),
+    };
+}
 
 }  // namespace
 
@@ -119,6 +134,12 @@ std::vector<Key> emitterKeys() {
     };
 }
 
+std::vector<Key> emitterPathKeys() {
+    return pathKeys("where the emitter's position is then, or the first of its positions",
+                    "turns of the points of emission and of the velocity about that position, about x, then y, then z",
+                    "of the key before; in the first, the emitter's own");
+}
+
 std::vector<Key> obstacleKeys() {
     return {
         key("shape", Type::choice, "", "shape of the obstacle; a container is the inside of a box")
@@ -210,6 +231,12 @@ std::vector<Key> obstacleKeys() {
             .onlyFor({"box", "container", "sphere", "cylinder", "cone", "frustum", "capsule", "revolution", "mesh"})
             .notSimulated(),
     };
+}
+
+std::vector<Key> obstaclePathKeys() {
+    return pathKeys("where the obstacle's center is then, or a plane's point",
+                    "turns of the obstacle about that position, about x, then y, then z",
+                    "of the key before; in the first, the obstacle's own");
 }
 
 }  // namespace scenes

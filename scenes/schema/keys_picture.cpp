@@ -110,7 +110,8 @@ std::vector<Key> cameraKeys() {
     return {
         key("time", Type::number, "s", "when the camera is here; between the cameras of a list it moves smoothly")
             .derivedAs("required in a list")
-            .within(kNotNegative),
+            .within(kNotNegative)
+            .notInherited(),
         key("projection", Type::choice, "", "perspective, or orthographic without foreshortening")
             .defaultsTo("\"perspective\"")
             .oneOf({"perspective", "orthographic"}),

@@ -52,15 +52,30 @@ bool isTableOrList(const Value& value) {
            (value.kind == ValueKind::array && !value.items.empty() && value.items[0].kind == ValueKind::table);
 }
 
-/// The path of the first key of this name in any table of the schema, such as "physics.step"; empty if there is none.
-std::string pathInAnyTable(std::string_view name) {
+/// The path of the first key of this name in the tables within a table, or else in any table of the schema, such as
+/// "physics.step"; empty if there is none.
+std::string pathInAnyTable(const TableInfo& info, std::string_view name) {
+    for (const TableInfo* within : tablesWithin(info.name))
+        if (const Key* key = findKey(within->name, name)) return pathOf(*key);
     for (const Key& key : schema())
-        if (key.name == name) return pathOf(key);
+        if (key.name == name && parentOf(*findTable(key.table)).empty()) return pathOf(key);
     return {};
+}
+
+void reportUnknownTable(TableReader& reader, const Entry& entry) {
+    std::vector<std::string> names;
+    for (const TableInfo* within : tablesWithin(reader.info.name)) names.emplace_back(localNameOf(*within));
+    const std::string nearest = nearestName(entry.key, names);
+    const std::string hint =
+        nearest.empty() ? "" : fmt::format(", did you mean {}?", tomlString(fullName(reader.info, nearest)));
+    reader.problems.add(entry.value.position,
+                        fmt::format("unknown table {}{}", tomlString(fullName(reader.info, entry.key)), hint));
+    reader.section.markInvalid();
 }
 
 void reportUnknown(TableReader& reader, const Entry& entry) {
     const TableInfo& info = reader.info;
+    if (isTableOrList(entry.value) && !tablesWithin(info.name).empty()) return reportUnknownTable(reader, entry);
     std::vector<std::string> names;
     for (const Key* key : keysOf(info.name)) names.emplace_back(key->name);
     std::string hint = nearestName(entry.key, names);
@@ -68,7 +83,7 @@ void reportUnknown(TableReader& reader, const Entry& entry) {
         // The suggested key is probably what was meant, so it counts as written and is not reported as missing, too.
         reader.section.putInvalid(hint, entry.position);
         hint = fmt::format(", did you mean {}?", tomlString(hint));
-    } else if (const std::string path = pathInAnyTable(entry.key); !path.empty()) {
+    } else if (const std::string path = pathInAnyTable(info, entry.key); !path.empty()) {
         hint = path == entry.key ? ": it belongs above the first table"
                                  : fmt::format(", did you mean {}?", tomlString(path));
     }
@@ -77,11 +92,11 @@ void reportUnknown(TableReader& reader, const Entry& entry) {
 }
 
 /// The value that a table takes for a key from the table before in its list, as the cameras of a path do; nullptr if it
-/// takes none. A key without a constant default, such as the time of a camera, is not inherited.
+/// takes none.
 const TypedValue* inheritedBy(const TableReader& reader, const Key& key) {
     const Section* previous = reader.previous;
     const std::string_view name = key.name;
-    return previous != nullptr && !key.defaultValue.empty() && previous->has(name) ? &previous->typed(name) : nullptr;
+    return previous != nullptr && key.isInherited && previous->has(name) ? &previous->typed(name) : nullptr;
 }
 
 bool applies(const TableReader& reader, const Key& key) {
@@ -149,8 +164,11 @@ struct SectionsReader {
     bool mayBeIncomplete = false;
 };
 
-/// Validates a table, and completes it with inherited values and the schema's defaults.
-Section readOne(const SectionsReader& all, const TableInfo& info, std::string path, const Value& value,
+std::vector<Section> readList(SectionsReader& reader, const TableInfo& info, const std::string& path,
+                              const Entry* entry);
+
+/// Validates a table and those within it, and completes it with inherited values and the schema's defaults.
+Section readOne(SectionsReader& all, const TableInfo& info, std::string path, const Value& value,
                 const Section* previous = nullptr) {
     TableReader reader{.info = info,
                        .value = value,
@@ -159,19 +177,26 @@ Section readOne(const SectionsReader& all, const TableInfo& info, std::string pa
                        .previous = previous,
                        .section = Section(info, std::move(path), value.position)};
     findVariant(reader);
+    const std::vector<const TableInfo*> tablesInside = tablesWithin(info.name);
     for (const Entry& entry : value.entries) {
         // The root of a TOML file has the keys above the first table and all tables. Only the keys are read here.
         const bool isTop = info.name.empty();
         const bool isTable = isTableOrList(entry.value);
         if (isTop && (isTableName(entry.key) || (isTable && findKey("", entry.key) == nullptr))) continue;
-        readEntry(reader, entry);
+        const auto inside = std::ranges::find(tablesInside, std::string_view(entry.key),
+                                              [](const TableInfo* within) { return localNameOf(*within); });
+        if (inside == tablesInside.end())
+            readEntry(reader, entry);
+        else
+            reader.section.list(entry.key) =
+                readList(all, **inside, fmt::format("{}.{}", reader.section.path(), entry.key), &entry);
     }
     for (const Key* key : keysOf(info.name)) completeKey(reader, *key);
     return std::move(reader.section);
 }
 
 /// A table that is not in the scene file: every key has its default.
-Section defaultSection(const SectionsReader& reader, const TableInfo& info) {
+Section defaultSection(SectionsReader& reader, const TableInfo& info) {
     return readOne(reader, info, std::string(info.name), Value{});
 }
 
@@ -190,13 +215,27 @@ Section readSingle(SectionsReader& reader, const char* name) {
                                        : defaultSection(reader, info);
 }
 
-void readItems(SectionsReader& reader, const TableInfo& info, const Value& list, std::vector<Section>& sections) {
+/// Checks that the key of a list whose values have to increase does, from one table to the next.
+void checkIncreasing(const Section& previous, Section& section, ProblemList& problems) {
+    const std::string_view name = section.table().increasing;
+    if (name.empty() || !previous.has(name) || !section.has(name)) return;
+    if (section.number(name) > previous.number(name)) return;
+    const Key& key = *findKey(section.table().name, name);
+    section.markInvalid();
+    problems.add(section.position(name),
+                 fmt::format("{} is {}, must be after that of the {} before, {} ({})", name, section.canonical(name),
+                             localNameOf(section.table()), previous.canonical(name), unitWords(key.unit)));
+}
+
+void readItems(SectionsReader& reader, const TableInfo& info, const std::string& listPath, const Value& list,
+               std::vector<Section>& sections) {
     for (std::size_t index = 0; index < list.items.size(); ++index) {
         const Value& item = list.items[index];
-        std::string path = fmt::format("{}[{}]", info.name, index);
+        std::string path = fmt::format("{}[{}]", listPath, index);
         if (item.kind == ValueKind::table) {
             const Section* previous = info.inheritsPrevious && !sections.empty() ? &sections.back() : nullptr;
             sections.push_back(readOne(reader, info, std::move(path), item, previous));
+            if (sections.size() > 1) checkIncreasing(sections[sections.size() - 2], sections.back(), reader.problems);
         } else {
             reader.mayBeIncomplete = true;
             reader.problems.add(item.position, fmt::format("{} is {}, must be a table", path, describe(item)));
@@ -204,24 +243,30 @@ void readItems(SectionsReader& reader, const TableInfo& info, const Value& list,
     }
 }
 
-std::vector<Section> readList(SectionsReader& reader, const char* name) {
-    const TableInfo& info = *findTable(name);
+/// A table that may be written several times.
+/// @param path   of the list, e.g. "obstacle[0].key"
+/// @param entry  the list, or a single table; nullptr if it was not written
+std::vector<Section> readList(SectionsReader& reader, const TableInfo& info, const std::string& path,
+                              const Entry* entry) {
     std::vector<Section> sections;
-    const Entry* entry = findEntry(reader.document.root, name);
     if (entry == nullptr) return sections;
     const Value& value = entry->value;
     if (value.kind == ValueKind::array) {
-        readItems(reader, info, value, sections);
+        readItems(reader, info, path, value, sections);
         return sections;
     }
     if (value.kind != ValueKind::table || !info.allowsSingle) {
         reader.mayBeIncomplete = true;
         if (value.kind != ValueKind::invalid)
-            reader.problems.add(value.position,
-                                fmt::format("{} is {}, must be a list of tables: [[{}]]", name, describe(value), name));
+            reader.problems.add(value.position, fmt::format("{} is {}, must be a list of tables: [[{}]]", info.name,
+                                                            describe(value), info.name));
     }
-    if (value.kind == ValueKind::table) sections.push_back(readOne(reader, info, name, value));
+    if (value.kind == ValueKind::table) sections.push_back(readOne(reader, info, path, value));
     return sections;
+}
+
+std::vector<Section> readList(SectionsReader& reader, const char* name) {
+    return readList(reader, *findTable(name), name, findEntry(reader.document.root, name));
 }
 
 void reportUnknownTables(SectionsReader& reader) {
@@ -252,8 +297,9 @@ std::string missingText(const Section& section, const Key& key) {
 
 std::vector<const Section*> Sections::all() const {
     std::vector<const Section*> list = {&top, &physics, &world};
+    const auto add = [&](const Section& section) { list.push_back(&section); };
     for (const std::vector<Section>* sections : {&materials, &bodies, &emitters, &obstacles, &cameras})
-        for (const Section& section : *sections) list.push_back(&section);
+        for (const Section& section : *sections) section.visitAll(add);
     for (const Section* section : {&look, &overlay, &still}) list.push_back(section);
     if (study) list.push_back(&*study);
     return list;

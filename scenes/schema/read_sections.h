@@ -26,7 +26,7 @@ struct Sections {
     std::optional<Section> study;  ///< only if it is written
     bool mayBeIncomplete = false;  ///< a table could not be read, and seemingly missing keys may be in it
 
-    /// All tables in the order of the schema.
+    /// All tables in the order of the schema, each followed by those within it.
     std::vector<const Section*> all() const;
 };
 

@@ -63,17 +63,34 @@ const std::vector<TableInfo>& tables() {
          .allowsSingle = false,
          .allowsList = true,
          .discriminator = "shape"},
+        {.name = "emitter.key",
+         .subject = "a key of an emitter",
+         .help = "a moment on the path of the emitter above, which glides from key to key; each inherits from the one "
+                 "before what it leaves out",
+         .allowsSingle = false,
+         .allowsList = true,
+         .inheritsPrevious = true,
+         .increasing = "time"},
         {.name = "obstacle",
          .subject = "an obstacle",
          .help = "what particles bounce off",
          .allowsSingle = false,
          .allowsList = true,
          .discriminator = "shape"},
+        {.name = "obstacle.key",
+         .subject = "a key of an obstacle",
+         .help = "a moment on the path of the obstacle above, which glides from key to key; each inherits from the one "
+                 "before what it leaves out",
+         .allowsSingle = false,
+         .allowsList = true,
+         .inheritsPrevious = true,
+         .increasing = "time"},
         {.name = "camera",
          .subject = "a camera on a path",
          .help = "the point of view; [[camera]] for a path, where each inherits from the one before what it leaves out",
          .allowsList = true,
          .inheritsPrevious = true,
+         .increasing = "time",
          .isSimulated = false,
          .discriminator = "projection"},
         {.name = "look",
@@ -113,7 +130,9 @@ const std::vector<Key>& schema() {
         add("material", materialKeys());
         add("body", bodyKeys());
         add("emitter", emitterKeys());
+        add("emitter.key", emitterPathKeys());
         add("obstacle", obstacleKeys());
+        add("obstacle.key", obstaclePathKeys());
         add("camera", cameraKeys());
         add("look", lookKeys());
         add("overlay", overlayKeys());
@@ -130,6 +149,23 @@ const TableInfo* findTable(std::string_view name) {
     return nullptr;
 }
 
+std::string_view parentOf(const TableInfo& table) {
+    const std::size_t dot = table.name.rfind('.');
+    return dot == std::string_view::npos ? std::string_view() : table.name.substr(0, dot);
+}
+
+std::string_view localNameOf(const TableInfo& table) {
+    const std::string_view parent = parentOf(table);
+    return parent.empty() ? table.name : table.name.substr(parent.size() + 1);
+}
+
+std::vector<const TableInfo*> tablesWithin(std::string_view table) {
+    std::vector<const TableInfo*> within;
+    for (const TableInfo& candidate : tables())
+        if (!table.empty() && parentOf(candidate) == table) within.push_back(&candidate);
+    return within;
+}
+
 const Key* findKey(std::string_view table, std::string_view name) {
     for (const Key& key : schema())
         if (key.table == table && key.name == name) return &key;
@@ -144,8 +180,13 @@ std::vector<const Key*> keysOf(std::string_view table) {
 }
 
 std::string pathOf(const Key& key) {
-    if (key.table.empty()) return std::string(key.name);
-    return fmt::format("{}{}.{}", key.table, findTable(key.table)->allowsList ? "[]" : "", key.name);
+    std::string path(key.name);
+    const TableInfo* table = findTable(key.table);
+    while (table != nullptr && !table->name.empty()) {
+        path = fmt::format("{}{}.{}", localNameOf(*table), table->allowsList ? "[]" : "", path);
+        table = findTable(parentOf(*table));
+    }
+    return path;
 }
 
 std::string rangeText(const Range& range) {

@@ -51,6 +51,7 @@ struct Key {
     std::string_view derivedDefault{};  ///< a default that depends on other keys, in words; empty for none
     bool isRequired = false;            ///< the key must be given in every table that it applies to
     bool isSimulated = true;            ///< whether the states of the particles may depend on the key
+    bool isInherited = true;            ///< whether a table may take the key from the one before in its list
     std::vector<std::string_view>
         appliesTo{};  ///< those values of the table's discriminator for which the key applies; empty: all
 
@@ -78,6 +79,10 @@ struct Key {
         isSimulated = false;
         return std::move(*this);
     }
+    Key notInherited() && {
+        isInherited = false;
+        return std::move(*this);
+    }
     Key onlyFor(std::vector<std::string_view> variants) && {
         appliesTo = std::move(variants);
         return std::move(*this);
@@ -86,12 +91,13 @@ struct Key {
 
 /// A table of a scene file; the one without a name stands for the keys above the first table.
 struct TableInfo {
-    std::string_view name{};
+    std::string_view name{};     ///< as in its header; "obstacle.key" is a list of tables within each [[obstacle]]
     std::string_view subject{};  ///< in messages: "a body"
     std::string_view help{};
     bool allowsSingle = true;          ///< the table may be written once, as [name]
     bool allowsList = false;           ///< the table may be written several times, as [[name]]
     bool inheritsPrevious = false;     ///< a table in a list takes what it leaves out from the one before
+    std::string_view increasing{};     ///< a number that has to increase from each table of a list to the next
     bool isSimulated = true;           ///< whether the states of the particles may depend on any of its keys
     std::string_view discriminator{};  ///< the key that determines which others apply, e.g. "shape"; empty for none
 };
@@ -104,10 +110,19 @@ const std::vector<Key>& schema();
 /// The table with the given name; nullptr if there is none.
 const TableInfo* findTable(std::string_view name);
 
-/// Whether [name] or [[name]] is a table of a scene file.
+/// Whether [name] or [[name]] is a table of a scene file that is not within another table.
 inline bool isTableName(std::string_view name) {
-    return !name.empty() && findTable(name) != nullptr;
+    return !name.empty() && name.find('.') == std::string_view::npos && findTable(name) != nullptr;
 }
+
+/// The name of the table that a table is within: "obstacle" for "obstacle.key"; empty if it is in none.
+std::string_view parentOf(const TableInfo& table);
+
+/// The name of a table within its parent: "key" for "obstacle.key".
+std::string_view localNameOf(const TableInfo& table);
+
+/// The tables within a table, in the order of the schema.
+std::vector<const TableInfo*> tablesWithin(std::string_view table);
 
 /// The key with the given name in a table; nullptr if there is none.
 const Key* findKey(std::string_view table, std::string_view name);
@@ -115,7 +130,7 @@ const Key* findKey(std::string_view table, std::string_view name);
 /// The keys of a table, in the order of the schema.
 std::vector<const Key*> keysOf(std::string_view table);
 
-/// The name of a key with its table: "title", "physics.gravity", "body[].shape".
+/// The name of a key with its table: "title", "physics.gravity", "body[].shape", "obstacle[].key[].time".
 std::string pathOf(const Key& key);
 
 /// A range as messages show it: "> 0", "1 to 240", ">= 0 and < 1"; empty for an unbounded one.

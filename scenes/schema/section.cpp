@@ -11,6 +11,12 @@ namespace scenes {
 Section::Section(const TableInfo& table, std::string path, SourcePosition position)
     : table_(&table), path_(std::move(path)), position_(position) {}
 
+const std::vector<Section>& Section::list(std::string_view name) const {
+    static const std::vector<Section> kNone;
+    const auto found = lists_.find(name);
+    return found == lists_.end() ? kNone : found->second;
+}
+
 bool Section::isGiven(std::string_view name) const {
     if (invalid_.find(name) != invalid_.end()) return true;
     const auto found = slots_.find(name);

@@ -14,7 +14,7 @@ namespace scenes {
 
 class Section {
  public:
-    /// @param path      name of the table in messages and lists of values, e.g. "body[0]"
+    /// @param path      name of the table in messages and lists of values, e.g. "body[0]" or "obstacle[0].key[1]"
     /// @param position  position of the table's header
     Section(const TableInfo& table, std::string path, SourcePosition position);
 
@@ -25,6 +25,17 @@ class Section {
     /// gives a default.
     bool isValid() const { return isValid_; }
     void markInvalid() { isValid_ = false; }
+
+    /// The tables of a list within this one: "key" for the [[obstacle.key]] of an [[obstacle]]. Empty if there is none.
+    const std::vector<Section>& list(std::string_view name) const;
+    std::vector<Section>& list(std::string_view name) { return lists_[std::string(name)]; }
+    /// Calls visit(section) for this section, and then for each one within it.
+    template <class Visit>
+    void visitAll(const Visit& visit) const {
+        visit(*this);
+        for (const auto& [name, sections] : lists_)
+            for (const Section& section : sections) section.visitAll(visit);
+    }
 
     /// Whether a key was written, with a valid value or not.
     bool isGiven(std::string_view name) const;
@@ -72,7 +83,8 @@ class Section {
     SourcePosition position_;
     bool isValid_ = true;
     std::map<std::string, Slot, std::less<>> slots_;
-    std::map<std::string, SourcePosition, std::less<>> invalid_;  ///< position of each invalid value, by key
+    std::map<std::string, SourcePosition, std::less<>> invalid_;      ///< position of each invalid value, by key
+    std::map<std::string, std::vector<Section>, std::less<>> lists_;  ///< the tables within this one
 };
 
 }  // namespace scenes
