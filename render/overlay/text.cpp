@@ -1,12 +1,12 @@
-// Draws text with stb_truetype, in a font that the assembler copies from RENDER_FONT_FILE (a macro that CMake sets)
-// into the program, so that the program needs no font file when it runs. As an array of numbers the font would take the
-// compiler seconds.
+// Draws text with stb_truetype, in the font that is built into the program.
 #include "render/overlay/text.h"
 
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
 #include <vector>
+
+#include "render/overlay/built_in_font.h"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
@@ -19,17 +19,6 @@
 #include <stb_truetype.h>
 #pragma GCC diagnostic pop
 
-asm(".section .rodata\n"
-    ".balign 16\n"
-    ".global globularFont\n"
-    ".hidden globularFont\n"
-    "globularFont:\n"
-    ".incbin \"" RENDER_FONT_FILE
-    "\"\n"
-    ".previous\n");
-
-extern "C" __attribute__((visibility("hidden"))) const unsigned char globularFont[];
-
 namespace render {
 
 namespace {
@@ -39,7 +28,7 @@ constexpr int kReplacement = 0xFFFD;  // replacement character U+FFFD, drawn for
 const stbtt_fontinfo& font() {
     static const stbtt_fontinfo kFont = [] {
         stbtt_fontinfo info;
-        if (stbtt_InitFont(&info, globularFont, 0) == 0)
+        if (stbtt_InitFont(&info, builtInFont(), 0) == 0)
             throw std::logic_error("render: the built-in font is not a TrueType font");
         return info;
     }();
