@@ -4,14 +4,15 @@
 # Usage: setup.sh [--tests] [PACKAGE...]; --tests adds what the tests need besides; further packages are installed as well.
 set -euo pipefail
 
-# OpenVDB makes the meshes of `globular mesh`, and its headers include Boost's; OpenEXR writes the files of `globular render
+# OpenVDB makes the meshes of `globular mesh` and finds the distances from meshes of scenes, which assimp reads, and its headers
+# include Boost's; OpenEXR writes the files of `globular render
 # --format exr`; MPI and Zoltan share a run out in globular-mpi. The program can be built without, but the package and CI are to
 # have what the documents describe.
 packages=(
     cmake ninja-build g++ pkg-config
     libtbb-dev libhwy-dev libeigen3-dev libglm-dev libstb-dev libisal-dev libfmt-dev libcli11-dev nlohmann-json3-dev
     libtomlplusplus-dev fonts-dejavu-core
-    libopenvdb-dev libboost-dev libopenexr-dev
+    libopenvdb-dev libboost-dev libopenexr-dev libassimp-dev
     libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev
     libosmesa6-dev libegl-dev libgl-dev libegl1 libgl1-mesa-dri
     ffmpeg gnuplot-nox

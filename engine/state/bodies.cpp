@@ -72,6 +72,37 @@ std::vector<Vec3> boxPositions(const Vec3& minimum, const Vec3& maximum, const P
     return positions;
 }
 
+// The lattice is cut into blocks, of which those that are far from the shape are left out as a whole.
+std::vector<Vec3> positionsInside(const BoundingBox& bounds, const std::function<double(const Vec3&)>& distance,
+                                  const Packing& packing) {
+    constexpr int kBlock = 8;  // layers along the edge of a block; chosen: as many as a brick of distances has voxels
+    const double halfEdge = layerDistance(packing.spacing);
+    const double blockRadius = 0.5 * std::sqrt(3.0) * kBlock * halfEdge;
+    const double slack = kFaceSlack * packing.spacing;
+    const Vec3 middle = bounds.middle();
+    std::array<int, 3> reach{};  // layers to either side of the middle
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double halfExtent = 0.5 * (bounds.high - bounds.low)[static_cast<int>(axis)];
+        reach[axis] = static_cast<int>(std::floor(halfExtent / halfEdge + kFaceSlack));
+    }
+    std::vector<Vec3> positions;
+    const auto visitBlock = [&](int x0, int y0, int z0) {
+        const Vec3 blockMiddle = middle + halfEdge * (Vec3(x0, y0, z0) + Vec3::Constant(0.5 * (kBlock - 1)));
+        if (distance(blockMiddle) > blockRadius) return;
+        for (int z = z0; z < std::min(z0 + kBlock, reach[2] + 1); ++z)
+            for (int y = y0; y < std::min(y0 + kBlock, reach[1] + 1); ++y)
+                for (int x = x0; x < std::min(x0 + kBlock, reach[0] + 1); ++x) {
+                    if ((x + y + z) % 2 != 0) continue;
+                    const Vec3 point = middle + halfEdge * Vec3(x, y, z);
+                    if (distance(point) <= slack) positions.push_back(point + jitterOf(packing, positions.size()));
+                }
+    };
+    for (int z = -reach[2]; z <= reach[2]; z += kBlock)
+        for (int y = -reach[1]; y <= reach[1]; y += kBlock)
+            for (int x = -reach[0]; x <= reach[0]; x += kBlock) visitBlock(x, y, z);
+    return positions;
+}
+
 std::vector<Vec3> gridPositions(const Vec3& center, const std::array<std::uint32_t, 3>& counts,
                                 const Packing& packing) {
     std::vector<Vec3> positions;

@@ -4,9 +4,10 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
-#include "engine/core/vec3.h"
+#include "engine/core/bounding_box.h"
 
 namespace engine {
 
@@ -29,6 +30,13 @@ std::vector<Vec3> ballPositions(const Vec3& center, double radius, const Packing
 
 /// Face-centered cubic positions inside an axis-aligned box, in meters.
 std::vector<Vec3> boxPositions(const Vec3& minimum, const Vec3& maximum, const Packing& packing);
+
+/// Face-centered cubic positions inside a shape of any form, in meters: those where its distance is not positive. The
+/// lattice has a point in the middle of the bounds.
+/// @param bounds  of the shape, m
+/// @param distance  signed distance of a point from the shape, m; outside, at most the distance
+std::vector<Vec3> positionsInside(const BoundingBox& bounds, const std::function<double(const Vec3&)>& distance,
+                                  const Packing& packing);
 
 /// A cubic lattice of counts[0] x counts[1] x counts[2] positions around a center, in meters.
 /// A direction with a single layer gets no jitter, so that a planar body stays planar.

@@ -6,6 +6,7 @@
 #include "engine/core/hash.h"
 #include "engine/core/random.h"
 #include "engine/state/bodies.h"
+#include "scenes/build/build_shapes.h"
 #include "scenes/build/builders.h"
 #include "scenes/build/columns.h"
 #include "scenes/particles/particle_file.h"
@@ -35,6 +36,11 @@ engine::Packing packingOf(const Section& section, const BuildContext& context) {
 /// Random displacement in a ball or box whose table gives none, as a share of the spacing. Chosen: it weakens the
 /// regular rays in which a lattice splashes, and neighbors stay 0.8 spacings apart.
 constexpr double kDefaultJitter = 0.05;
+
+/// Particles of a lattice in a volume (m^3): two in a cube whose face has a diagonal of two spacings.
+double particlesIn(double volume, double spacing) {
+    return volume * std::sqrt(2.0) / (spacing * spacing * spacing);
+}
 
 /// Upper bound of the number of particles in a body of shape box, ball or grid.
 double maxParticleCount(const Section& section, const BuildContext& context) {
@@ -83,9 +89,42 @@ engine::NewParticle prototypeOf(const Body& body) {
     return particle;
 }
 
-void appendPacked(const Body& body, const BuildContext& context, engine::Particles& particles) {
+/// The positions in a solid of any form. Empty, with the problem recorded, if it would have too many of them or none,
+/// or if its mesh does not do.
+std::vector<Vec3> solidPositions(const Body& body, BuildContext& context) {
+    Section& section = body.section;
+    engine::Packing packing = packingOf(section, context);
+    packing.seed = engine::scatter(context.seed ^ engine::scatter(body.index));
+    try {
+        // Voxels are half a particle's radius wide.
+        const Solid solid = solidFrom(section, 0.25 * packing.spacing, context);
+        const double expected = particlesIn(estimatedVolume(solid), packing.spacing);
+        if (expected > context.limits.particles) {
+            addExpectedParticles(section, "shape", expected, "the body would have", context);
+            return {};
+        }
+        std::vector<Vec3> positions = engine::positionsInside(
+            solid.bounds(), [&](const Vec3& point) { return solid.distance(point); }, packing);
+        addExpectedParticles(section, "shape", static_cast<double>(positions.size()), "the body has", context);
+        if (positions.empty())
+            report(section, "shape", context,
+                   "no particle fits into the body: it is thinner than the spacing, {:.6g} m; make it larger, or its "
+                   "particles smaller",
+                   packing.spacing);
+        return positions;
+    } catch (const InputError& error) {
+        section.markInvalid();
+        context.problems.add(section.position("file"), error);
+        return {};
+    }
+}
+
+void appendPacked(const Body& body, BuildContext& context, engine::Particles& particles) {
     engine::NewParticle particle = prototypeOf(body);
-    for (const Vec3& position : packedPositions(body, context)) {
+    const std::vector<Vec3> positions =
+        isFilledSolid(body.section) ? solidPositions(body, context) : packedPositions(body, context);
+    if (!body.section.isValid()) return;
+    for (const Vec3& position : positions) {
         particle.position = position;
         append(particles, particle);
     }
@@ -179,7 +218,7 @@ void buildBody(Body body, BuildContext& context, engine::Particles& particles) {
     Section& section = body.section;
     if (!section.has("shape")) return;
     const std::string& shape = section.string("shape");
-    const bool isPacked = shape == "box" || shape == "ball" || shape == "grid";
+    const bool isPacked = shape != "points" && shape != "file";
     // The particles of a file keep their material with its constants, whatever their radii are.
     if (shape != "file" && section.has("particle_radius"))
         body.material = materialAtRadius(body.materials, body.material, section.number("particle_radius"));
@@ -187,7 +226,7 @@ void buildBody(Body body, BuildContext& context, engine::Particles& particles) {
     if (isPacked) section.derive("jitter", TypedValue::ofNumber(shape == "grid" ? 0.0 : kDefaultJitter));
     checkCorners(section, Flatness::allowed, context);
     checkPoints(section, context);
-    if (isPacked && section.isValid())
+    if (isPacked && section.isValid() && !isFilledSolid(section))
         addExpectedParticles(section, "shape", maxParticleCount(section, context), "the body would have", context);
     if (!section.isValid()) return;
     const std::size_t countBefore = particles.count();

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,6 +16,7 @@
 
 #include "scenes/build/read_scene.h"
 #include "scenes/schema/read_sections.h"
+#include "scenes/shapes/mesh.h"
 
 namespace scenes {
 
@@ -38,8 +40,10 @@ struct BuildContext {
     double resolution = 1.0;  ///< factor by which radii and spacings are divided
     bool hasOmissions =
         false;  ///< a part of the scene file could not be read, so keys that seem to be missing may be in it
-    std::uint64_t contentHash;                 ///< hash over the contents of the files that the scene refers to
-    std::vector<std::filesystem::path> files;  ///< these files
+    std::uint64_t contentHash;                      ///< hash over the contents of the files that the scene refers to
+    std::vector<std::filesystem::path> files = {};  ///< these files
+    std::map<std::string, Mesh> meshes = {};        ///< the meshes among them that have been read, by path
+    std::map<std::string, std::vector<std::uint8_t>> contents = {};  ///< likewise the contents of fonts and images
     Limits limits = {};
     double expectedParticles = 0.0;  ///< number of particles of the bodies and emitters built so far
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/state/bodies.h"
+#include "scenes/build/build_shapes.h"
 
 namespace scenes {
 namespace {
@@ -53,10 +54,13 @@ std::optional<engine::Column> columnOf(const Section& body, const engine::Materi
                                        const BuildContext& context) {
     if (!body.isValid() || !body.has("shape")) return std::nullopt;
     const std::string& shape = body.string("shape");
-    if (shape != "ball" && shape != "box" && shape != "grid") return std::nullopt;
+    if (shape == "points" || shape == "file") return std::nullopt;
     engine::Column column{.height = 0.0, .spacing = spacingOf(body, material), .gravity = gravityOf(context)};
     if (column.gravity == 0.0) return column;
-    if (shape == "ball") {
+    if (isFilledSolid(body)) {
+        const Vec3 down = context.gravity / column.gravity;
+        column.height = reachOf(body, down, context) + reachOf(body, -down, context);
+    } else if (shape == "ball") {
         column.height = 2.0 * body.number("radius");
     } else if (shape == "box") {
         const engine::Packing packing{.spacing = column.spacing, .refinement = context.resolution};
@@ -91,7 +95,7 @@ std::optional<engine::Column> columnFor(Section& section, const engine::Material
     if (!tallest && !section.has("depth")) {
         if (!context.hasOmissions && std::ranges::all_of(bodies, &Section::isValid))
             report(section, "compression", context,
-                   "compression needs a depth (meters): no body of shape box, ball or grid tells it");
+                   "compression needs a depth (meters): no body that is filled with a lattice tells it");
         section.markInvalid();
         return std::nullopt;
     }

@@ -21,8 +21,8 @@ bool checkCompression(Section& material, BuildContext& context);
 std::optional<engine::Column> columnFor(Section& section, const engine::Material& material,
                                         const std::vector<Section>& bodies, BuildContext& context);
 
-/// The column that a body of shape box, ball or grid is before it sinks; nothing for other shapes and for a body whose
-/// table has problems.
+/// The column that a body is before it sinks; nothing for one of shape points or file and for one whose table has
+/// problems.
 /// @param material  gives the radius of the particles, unless the body does
 std::optional<engine::Column> columnOf(const Section& body, const engine::Material& material,
                                        const BuildContext& context);

@@ -8,6 +8,7 @@
 
 #include "engine/core/hash.h"
 #include "engine/stepping/take_step.h"
+#include "scenes/build/build_shapes.h"
 #include "scenes/build/builders.h"
 #include "scenes/schema/document.h"
 #include "scenes/schema/read_sections.h"
@@ -169,6 +170,7 @@ std::vector<SourcePosition> positionsOf(const std::vector<Section>& sections) {
 /// Builds the parts of a scene from its tables. They are complete only if no problem was recorded.
 void build(Sections& sections, BuildContext& context, Scene& scene) {
     applyResolution(sections, context);
+    readShapes(sections.bodies, context);
     Materials materials = buildMaterials(sections.materials, sections.bodies, context);
     scene.setup.world = buildWorld(sections.world, context);
     buildBodies(sections.bodies, materials, scene, context);

@@ -28,7 +28,7 @@ void refineBody(Section& body, BuildContext& context) {
         return report(
             body, shape == "file" ? "file" : "positions", context,
             "resolution is {}, but particles that are given one by one cannot be refined: use a box, a ball or "
-            "a grid, or leave resolution at 1",
+            "another shape that is filled, or leave resolution at 1",
             formatNumber(resolution));
     scale(body, "spacing", 1.0 / resolution, context);
     scale(body, "particle_radius", 1.0 / resolution, context);

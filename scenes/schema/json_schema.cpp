@@ -62,6 +62,8 @@ Json typeSchema(const Key& key) {
             return colorSchema(key.range);
         case Type::colorList:
             return arraySchema(colorSchema(key.range), 0);
+        case Type::pairList:
+            return arraySchema(arraySchema(numberSchema("number", key.range), 2), 0);
         case Type::interval:
             return arraySchema(numberSchema("number", key.range), 2);
         case Type::size:

@@ -6,6 +6,16 @@ namespace {
 
 constexpr std::string_view kMinimumHelp = "corner with the smallest coordinates";
 constexpr std::string_view kMaximumHelp = "corner with the largest coordinates";
+constexpr std::string_view kRotationHelp =
+    "angles by which the shape is turned about the x axis, then y, then z, around its center";
+constexpr std::string_view kProfileHelp =
+    "points [radius, height] of the profile that is turned around the y axis, in order";
+
+constexpr Range kDegrees{.low = -36000.0, .high = 36000.0};
+
+/// The shapes of bodies that are filled with a lattice.
+const std::vector<std::string_view> kPacked = {"box",     "ball",  "grid",       "cylinder", "cone", "frustum",
+                                               "capsule", "shell", "revolution", "mesh",     "text", "image"};
 
 /// Angles of a path, degrees. Their sines are computed to the last bits up to far more.
 constexpr Range kAngles{.low = -1e6, .high = 1e6};
@@ -28,27 +38,75 @@ std::vector<Key> bodyKeys() {
     return {
         key("shape", Type::choice, "", "what is filled with particles at the start")
             .required()
-            .oneOf({"box", "ball", "grid", "points", "file"}),
+            .oneOf({"box", "ball", "grid", "cylinder", "cone", "frustum", "capsule", "shell", "revolution", "mesh",
+                    "text", "image", "points", "file"}),
         key("material", Type::string, "", "name of a [[material]]")
             .derivedAs("the first; for a file, the materials in it"),
         velocity("velocity", "velocity of every particle, in addition to those of points and files")
             .defaultsTo("[0, 0, 0]"),
-        position("center", "center of the body").defaultsTo("[0, 0, 0]").onlyFor({"ball", "grid"}),
-        length("radius", "radius of the ball").required().onlyFor({"ball"}),
+        position("center",
+                 "center of the body; the origin of a profile, the middle of a mesh, text or image. Without it, a mesh "
+                 "is where its file has it")
+            .defaultsTo("[0, 0, 0]")
+            .onlyFor({"ball", "grid", "cylinder", "cone", "frustum", "capsule", "shell", "revolution", "mesh", "text",
+                      "image"}),
+        key("rotation", Type::vec3, "degrees", kRotationHelp)
+            .defaultsTo("[0, 0, 0]")
+            .within(kDegrees)
+            .onlyFor({"box", "cylinder", "cone", "frustum", "capsule", "revolution", "mesh", "text", "image"}),
+        length("radius", "radius; of a cone or frustum, at its bottom")
+            .required()
+            .onlyFor({"ball", "cylinder", "cone", "frustum", "capsule", "shell"}),
+        key("top_radius", Type::number, "m", "radius of a frustum at its top; it may be 0")
+            .required()
+            .within({.low = 0.0, .high = engine::kWorldLimit})
+            .onlyFor({"frustum"}),
+        length("height",
+               "height, along y before the rotation; of a capsule, from end to end; of a text, of its "
+               "capital letters; of an image, of the whole image")
+            .derivedAs("of an image, from its width; otherwise it is required")
+            .onlyFor({"cylinder", "cone", "frustum", "capsule", "text", "image"}),
+        length("width", "width of the whole image").derivedAs("from its height").onlyFor({"image"}),
+        length("depth", "depth of the letters or of the image, along z before the rotation")
+            .required()
+            .onlyFor({"text", "image"}),
+        key("profile", Type::pairList, "m", kProfileHelp).required().within(kWithinWorld).onlyFor({"revolution"}),
+        key("closed", Type::boolean, "", "whether the last point of the profile is joined to the first")
+            .derivedAs("true without a thickness, false with one")
+            .onlyFor({"revolution"}),
+        key("smooth", Type::boolean, "", "whether a curve goes through the points of the profile, not straight lines")
+            .defaultsTo("false")
+            .onlyFor({"revolution"}),
+        key("fillet", Type::number, "m", "radius with which inner corners of the profile are rounded")
+            .derivedAs("the thickness of a wall, or a fiftieth of the size of a solid")
+            .within({.low = 0.0, .high = engine::kWorldLimit})
+            .onlyFor({"revolution"}),
+        length("thickness",
+               "thickness of the wall along a profile; for other shapes, of what is filled below the "
+               "surface of a body that is hollow")
+            .derivedAs("the whole inside is filled; a shell needs it")
+            .onlyFor({"box", "ball", "cylinder", "cone", "frustum", "capsule", "shell", "revolution", "mesh", "text",
+                      "image"}),
+        key("scale", Type::number, "", "factor on the coordinates of a mesh, which are in meters")
+            .defaultsTo("1")
+            .within({.low = 0.0, .high = 1e9, .isLowExcluded = true})
+            .onlyFor({"mesh"}),
+        key("text", Type::string, "", "letters to fill, in one or more lines").required().onlyFor({"text"}),
+        key("font", Type::string, "", "TrueType or OpenType font file, relative to the scene file")
+            .derivedAs("DejaVu Sans, which is built in")
+            .onlyFor({"text"}),
         position("minimum", kMinimumHelp).required().onlyFor({"box"}),
         position("maximum", kMaximumHelp).required().onlyFor({"box"}),
         key("counts", Type::counts, "", "number of particles along x, y and z")
             .required()
             .within({1.0, 1e6})
             .onlyFor({"grid"}),
-        length("spacing", "distance of nearest neighbors")
-            .derivedAs("two particle radii")
-            .onlyFor({"box", "ball", "grid"}),
+        length("spacing", "distance of nearest neighbors").derivedAs("two particle radii").onlyFor(kPacked),
         key("jitter", Type::number, "",
             "random displacement, as a share of the spacing; without any a splash is a star")
             .derivedAs("0.05; 0 for a grid")
             .within({0.0, 0.5})
-            .onlyFor({"box", "ball", "grid"}),
+            .onlyFor(kPacked),
         key("positions", Type::vec3List, "m", "position of each particle")
             .required()
             .within(kWithinWorld)
@@ -58,11 +116,11 @@ std::vector<Key> bodyKeys() {
             .within(kWithinWorld)
             .onlyFor({"points"}),
         key("file", Type::string, "",
-            "file of particles, relative to the scene file: PLY, VTP, extended XYZ or a LAMMPS dump, as `globular "
-            "simulate` "
-            "and other programs write them; its content tells which")
+            "relative to the scene file: for a file, its particles, as PLY, VTP, extended XYZ or a LAMMPS dump, as "
+            "`globular simulate` and other programs write them; for a mesh, a closed one in OBJ, STL, PLY or glTF; for "
+            "an image, a PNG whose dark pixels are filled")
             .required()
-            .onlyFor({"file"}),
+            .onlyFor({"file", "mesh", "image"}),
         length("particle_radius",
                "radius of this body's particles; what their material leaves out of mass, b1 and bd follows from it")
             .derivedAs("of the material; for a file, the radii in it")

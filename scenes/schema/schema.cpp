@@ -33,6 +33,7 @@ const TypeWords& wordsOf(Type type) {
         {Type::vec3List, "list of [x, y, z]", "a list of [x, y, z]"},
         {Type::color, "color", "\"#rrggbb\" or [r, g, b]"},
         {Type::colorList, "list of colors", "a list of colors \"#rrggbb\""},
+        {Type::pairList, "list of [r, y]", "a list of [radius, height]"},
         {Type::interval, "[low, high]", "two numbers [low, high], low below high"},
         {Type::size, "[width, height]", "two whole numbers [width, height]"},
         {Type::counts, "[nx, ny, nz]", "three whole numbers [nx, ny, nz]"},

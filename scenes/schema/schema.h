@@ -24,6 +24,7 @@ enum class Type {
     vec3List,
     color,  ///< a color, "#rrggbb" in sRGB or [r, g, b] in linear light
     colorList,
+    pairList,  ///< list of [a, b]
     interval,  ///< [low, high]
     size,      ///< [width, height], whole numbers of pixels
     counts     ///< [nx, ny, nz], whole numbers

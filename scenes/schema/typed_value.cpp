@@ -112,6 +112,23 @@ MaybeValue numbersOf(const Subject& subject, const Value& value, std::size_t len
     return listOf(subject, value, elementType);
 }
 
+MaybeValue pairsOf(const Subject& subject, const Value& value) {
+    if (value.kind != ValueKind::array || value.items.empty()) return reject(subject, value);
+    TypedValue pairs;
+    std::vector<std::string> texts;
+    for (std::size_t index = 0; index < value.items.size(); ++index) {
+        const Subject element{subject.key, subject.problems, fmt::format("{}[{}]", subject.name, index),
+                              "two numbers [radius, height]"};
+        const MaybeValue pair = numbersOf(element, value.items[index], 2, Type::number);
+        if (!pair) continue;
+        pairs.numbers.insert(pairs.numbers.end(), pair->numbers.begin(), pair->numbers.end());
+        texts.push_back(pair->canonical);
+    }
+    if (texts.size() < value.items.size()) return std::nullopt;
+    pairs.canonical = fmt::format("[{}]", fmt::join(texts, ", "));
+    return pairs;
+}
+
 MaybeValue intervalOf(const Subject& subject, const Value& value) {
     const MaybeValue pair = numbersOf(subject, value, 2, Type::number);
     if (pair && pair->numbers[0] >= pair->numbers[1])
@@ -159,6 +176,8 @@ MaybeValue typedOf(const Subject& subject, const Value& value) {
             return vectorOf(subject, value, Type::integer);
         case Type::color:
             return colorOf(subject, value);
+        case Type::pairList:
+            return pairsOf(subject, value);
         case Type::interval:
             return intervalOf(subject, value);
         case Type::size:

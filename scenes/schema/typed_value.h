@@ -23,7 +23,7 @@ struct TypedValue {
     std::string string;                 ///< string, choice
     std::vector<std::string> strings;   ///< stringList
     std::vector<engine::Vec3> vectors;  ///< the value of a vec3, color or counts; elements of a vec3List or colorList
-    std::vector<double> numbers;        ///< elements of an interval, size or numberList
+    std::vector<double> numbers;        ///< elements of an interval, size or numberList; of a pairList, pair by pair
     std::string canonical;              ///< the value as TOML text, equal for values that mean the same
 
     static TypedValue ofNumber(double number);

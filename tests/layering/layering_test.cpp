@@ -26,8 +26,16 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"mpi", {"engine", "scenes", "tools"}},
     {"tests", {"engine", "render", "scenes", "studies", "tools"}}};
 
-/// The one header of another folder that is allowed by name.
-const std::set<std::pair<std::string, std::string>> kAllowedFiles = {{"scenes", "render/picture/view.h"}};
+/// Headers of another folder that are allowed by name: plain data.
+const std::set<std::pair<std::string, std::string>> kAllowedFiles = {{"scenes", "render/picture/view.h"},
+                                                                     {"scenes", "render/overlay/built_in_font.h"}};
+
+/// Headers without a folder that single files may use: libraries of one file, and what loads modules.
+const std::set<std::pair<std::string, std::string>> kPlainHeaders = {
+    {"scenes/shapes/image_outline.cpp", "stb_image.h"},
+    {"scenes/shapes/mesh_distances.cpp", "dlfcn.h"},
+    {"scenes/shapes/mesh_file.cpp", "dlfcn.h"},
+    {"scenes/shapes/text_outline.cpp", "stb_truetype.h"}};
 
 /// Libraries that a folder may use, by the first part of the path; standard headers have no such part.
 const std::map<std::string, std::set<std::string>> kLibraries = {
@@ -53,7 +61,9 @@ const std::map<std::string, std::vector<std::string>> kRooms = {
      {"render", "render/opengl", "render/opengl/context", "render/cpu", "render/cpu/shading", "render/cpu/lighting",
       "render/cpu/metaballs", "render/cpu/raster", "render/mesh", "render/prepare", "render/overlay", "render/output",
       "render/compare", "render/picture"}},
-    {"scenes", {"scenes/view", "scenes/build", "scenes/schema", "scenes/model", "scenes/particles", "scenes/text"}},
+    {"scenes",
+     {"scenes/view", "scenes/build", "scenes/schema", "scenes/model", "scenes/shapes", "scenes/particles",
+      "scenes/text"}},
     {"studies",
      {"studies/accuracy", "studies/stability", "studies/scaling", "studies/bench", "studies/meshes", "studies/pictures",
       "studies/oracle", "studies/common"}},
@@ -140,8 +150,12 @@ std::string openGlVerdict(const Include& include) {
     return "";
 }
 
-/// The files that may include OpenVDB, which may be missing: one source of the renderer, and what reads its files back.
-const std::set<std::string> kWithOpenVdb = {"render/mesh/isosurface_openvdb.cpp", "tests/render/mesh_vdb_test.cpp"};
+/// The files that may include OpenVDB, which may be missing: modules, and what reads their files back.
+const std::set<std::string> kWithOpenVdb = {"render/mesh/isosurface_openvdb.cpp", "scenes/shapes/distances_openvdb.cpp",
+                                            "tests/render/mesh_vdb_test.cpp"};
+
+/// The file that may include assimp, which may be missing.
+constexpr const char* kWithAssimp = "scenes/shapes/mesh_file_assimp.cpp";
 
 /// The file that may include OpenEXR, which may be missing.
 constexpr const char* kWithOpenExr = "render/output/exr_openexr.cpp";
@@ -167,10 +181,14 @@ std::string verdict(const Include& include) {
     if (const std::string needsOpenGl = openGlVerdict(include); !needsOpenGl.empty()) return needsOpenGl;
     if (target == "openvdb" && kWithOpenVdb.count(include.file) == 0)
         return include.file + " must not include OpenVDB, which may be missing";
+    if (target == "assimp" && include.file != kWithAssimp)
+        return include.file + " must not include assimp, which may be missing";
     if (isOpenExrs(include.target) && include.file != kWithOpenExr)
         return include.file + " must not include OpenEXR, which may be missing";
     if (isOfSeveralProcesses(include.target) && include.folder != "mpi")
         return include.file + " must not include MPI or Zoltan, which may be missing";
+    if (target == "openvdb" || target == "assimp" || kPlainHeaders.count({include.file, include.target}) == 1)
+        return "";
     const std::string refusal = include.folder + "/ must not include <" + include.target + ">";
     if (const auto libraries = kLibraries.find(include.folder); libraries != kLibraries.end()) {
         // Without a slash and with .h: the system's C headers.
@@ -250,6 +268,15 @@ TEST_CASE("OpenEXR outside its file is noticed", "[layering]") {
     CHECK(verdict({"render", "render/output/exr_openexr.cpp", 1, "ImfHeader.h"}) == "");
     CHECK(verdict({"render", "render/output/exr.cpp", 1, "ImfHeader.h"}) != "");
     CHECK(verdict({"tools", "tools/run/render_loop.cpp", 1, "half.h"}) != "");
+}
+
+TEST_CASE("What reads meshes outside its files is noticed", "[layering]") {
+    CHECK(verdict({"scenes", "scenes/shapes/mesh_file_assimp.cpp", 1, "assimp/scene.h"}) == "");
+    CHECK(verdict({"scenes", "scenes/shapes/mesh_file.cpp", 1, "assimp/scene.h"}) != "");
+    CHECK(verdict({"scenes", "scenes/shapes/distances_openvdb.cpp", 1, "openvdb/openvdb.h"}) == "");
+    CHECK(verdict({"scenes", "scenes/shapes/mesh_distances.cpp", 1, "openvdb/openvdb.h"}) != "");
+    CHECK(verdict({"scenes", "scenes/shapes/mesh_file.cpp", 1, "dlfcn.h"}) == "");
+    CHECK(verdict({"scenes", "scenes/shapes/mesh.cpp", 1, "dlfcn.h"}) != "");
 }
 
 TEST_CASE("MPI outside its folder is noticed", "[layering]") {

@@ -193,7 +193,7 @@ TEST_CASE("contradictory keys of a compression are reported") {
     CHECK(problemsOf(kBall + "[material]\ncompression = 0.1\n[physics]\ngravity = [0, 0, 0]\n") ==
           Lines{"pile.toml:7:15: compression needs gravity: without it nothing is compressed"});
     CHECK(problemsOf(kTop + "[material]\ncompression = 0.1\n[[emitter]]\nposition = [0, 0, 0]\nrate = 1\n") ==
-          Lines{"pile.toml:4:15: compression needs a depth (meters): no body of shape box, ball or grid tells it"});
+          Lines{"pile.toml:4:15: compression needs a depth (meters): no body that is filled with a lattice tells it"});
     CHECK(problemsOf(kBall + "spacing = 0.35\n[material]\ncompression = 0.1\n") ==
           Lines{"pile.toml:8:15: compression is 0.1, but particles 0.35 m apart sink further, however strong their "
                 "repulsion is: give the body a smaller spacing"});

@@ -1,0 +1,14 @@
+// Meshes from files: OBJ, STL, PLY, glTF and what else assimp reads.
+#pragma once
+
+#include <string>
+
+#include "scenes/shapes/mesh.h"
+
+namespace scenes {
+
+/// The solid in a file, welded, in the file's coordinates. Throws InputError if the file cannot be read, is no mesh, or
+/// does not enclose a volume, with the place of its first open edge.
+Mesh readMesh(const std::string& path);
+
+}  // namespace scenes
