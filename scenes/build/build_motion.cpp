@@ -34,9 +34,8 @@ engine::Motion motionFrom(Section& section, const Vec3& middle, BuildContext& co
         const bool isFirst = motion.keys.empty();
         // Each key takes what it leaves out from the one before, and the first from the obstacle.
         key.derive("position", TypedValue::ofVector(isFirst ? motion.pivot : motion.keys.back().position));
-        key.derive("rotation",
-                   TypedValue::ofVector(isFirst ? section.vector("rotation")
-                                                : Vec3(motion.keys.back().angles / kDegree)));
+        key.derive("rotation", TypedValue::ofVector(isFirst ? section.vector("rotation")
+                                                            : Vec3(motion.keys.back().angles / kDegree)));
         motion.keys.push_back({key.number("time"), key.vector("position"), kDegree * key.vector("rotation")});
     }
     section.derive("record", TypedValue::ofBoolean(!motion.isAtRest()));

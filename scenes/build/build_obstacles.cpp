@@ -8,6 +8,7 @@
 #include "scenes/build/builders.h"
 #include "scenes/model/to_float.h"
 #include "scenes/shapes/mesh_distances.h"
+#include "scenes/shapes/outlines.h"
 #include "scenes/shapes/tessellation.h"
 
 namespace scenes {
@@ -103,26 +104,10 @@ engine::WallSurface surfaceFrom(Section& section, engine::WallLaw law, BuildCont
     return surface;
 }
 
-using Line = std::pair<Vec3, Vec3>;
-
-/// A box's twelve edges, each once: from every corner along each axis in which the corner is at the minimum. Bits 0, 1
-/// and 2 of a corner's number select the maximum in x, y and z.
-std::vector<Line> edgesOfBox(const Vec3& minimum, const Vec3& maximum) {
-    const auto corner = [&](unsigned number) {
-        return Vec3((number & 1U) != 0 ? maximum.x() : minimum.x(), (number & 2U) != 0 ? maximum.y() : minimum.y(),
-                    (number & 4U) != 0 ? maximum.z() : minimum.z());
-    };
-    std::vector<Line> lines;
-    for (unsigned number = 0; number < 8; ++number)
-        for (unsigned axis = 1; axis < 8; axis *= 2)
-            if ((number & axis) == 0) lines.emplace_back(corner(number), corner(number | axis));
-    return lines;
-}
-
 /// The edges of an obstacle: those of a box or container, and the sharp ones of a solid's mesh.
 std::vector<Line> edgesOf(const Section& section, const BuiltShape& built) {
     if (section.has("minimum")) return edgesOfBox(section.vector("minimum"), section.vector("maximum"));
-    return sharpEdges(*built.mesh, built.middle);
+    return isTurned(section) ? outlinesOf(profileFrom(section), built.middle) : sharpEdges(*built.mesh, built.middle);
 }
 
 /// Adds an obstacle to what is drawn. Planes are not drawn; all but spheres may have edges.
@@ -145,9 +130,10 @@ void addToLook(Section& section, const BuiltShape& built, std::size_t obstacle, 
         look.spheres.push_back({obstacle, section.vector("center"), section.number("radius"), color});
         return;
     }
-    if (shape == "box" && !isPlaced)
+    const bool hasFaces = !isContainer && section.boolean("faces");
+    if (hasFaces && shape == "box" && !isPlaced)
         look.boxes.push_back({obstacle, section.vector("minimum"), section.vector("maximum"), color});
-    else if (!isContainer)
+    else if (hasFaces)
         look.solids.push_back({obstacle, built.mesh, built.middle, color});
     if (section.boolean("edges"))
         look.edges.push_back({obstacle, edgesOf(section, built), isContainer ? color : toFloat(edgeColor)});
@@ -157,7 +143,8 @@ void addToLook(Section& section, const BuiltShape& built, std::size_t obstacle, 
 void checkPaperWalls(Section& section, BuildContext& context) {
     const std::string& shape = section.string("shape");
     if (isTurned(section) || shape == "mesh")
-        report(section, "shape", context, "a {} is not an obstacle of the paper's walls; leave out physics.wall", shape);
+        report(section, "shape", context, "a {} is not an obstacle of the paper's walls; leave out physics.wall",
+               shape);
     for (const char* name : {"rotation", "velocity", "spin", "pivot", "until", "record"})
         if (section.isGiven(name))
             report(section, name, context, "{} does not apply to the paper's walls, which rest; leave out physics.wall",
@@ -184,6 +171,7 @@ void checkShape(Section& section, BuildContext& context) {
         checkCorners(section, Flatness::forbidden, context);
     }
     if (shape == "sphere" && !section.isGiven("center")) reportMissing(section, "center", context);
+    if (isTurned(section)) section.derive("center", TypedValue::ofVector(Vec3::Zero()));
 }
 
 void buildObstacle(Section& section, double voxel, const Section& look, Scene& scene, BuildContext& context) {

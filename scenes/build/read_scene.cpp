@@ -171,6 +171,7 @@ std::vector<SourcePosition> positionsOf(const std::vector<Section>& sections) {
 void build(Sections& sections, BuildContext& context, Scene& scene) {
     applyResolution(sections, context);
     readShapes(sections.bodies, context);
+    readShapes(sections.obstacles, context);
     Materials materials = buildMaterials(sections.materials, sections.bodies, context);
     scene.setup.world = buildWorld(sections.world, context);
     buildBodies(sections.bodies, materials, scene, context);

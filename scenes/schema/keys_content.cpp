@@ -210,10 +210,11 @@ std::vector<Key> obstacleKeys() {
             .onlyFor({"plane"}),
         position("minimum", kMinimumHelp).derivedAs("from center and size").onlyFor({"box", "container"}),
         position("maximum", kMaximumHelp).derivedAs("from center and size").onlyFor({"box", "container"}),
-        position("center",
-                 "center, required for all but box, container and mesh; the origin of a profile; without it, a mesh is "
-                 "where its file has it")
-            .derivedAs("from minimum and maximum")
+        position(
+            "center",
+            "center, required for a sphere; of a revolution, the origin of the profile; without it, a mesh is where "
+            "its file has it")
+            .derivedAs("from minimum and maximum; of what is turned around an axis, [0, 0, 0]")
             .onlyFor({"box", "container", "sphere", "cylinder", "cone", "frustum", "capsule", "revolution", "mesh"}),
         key("size", Type::vec3, "m", "edge lengths")
             .derivedAs("from minimum and maximum")
@@ -230,11 +231,13 @@ std::vector<Key> obstacleKeys() {
             .required()
             .onlyFor({"cylinder", "cone", "frustum", "capsule"}),
         key("profile", Type::pairList, "m", kProfileHelp).required().within(kWithinWorld).onlyFor({"revolution"}),
-        key("closed", Type::boolean, "", kClosedHelp)
+        key("closed", Type::boolean, "", "whether the last point of the profile is joined to the first")
             .derivedAs("true without a thickness, false with one")
             .onlyFor({"revolution"}),
-        key("smooth", Type::boolean, "", kSmoothHelp).defaultsTo("false").onlyFor({"revolution"}),
-        key("fillet", Type::number, "m", kFilletHelp)
+        key("smooth", Type::boolean, "", "whether a curve goes through the points of the profile, not straight lines")
+            .defaultsTo("false")
+            .onlyFor({"revolution"}),
+        key("fillet", Type::number, "m", "radius with which inner corners of the profile are rounded")
             .derivedAs("the thickness of a wall, or a fiftieth of the size of a solid")
             .within({.low = 0.0, .high = engine::kWorldLimit})
             .onlyFor({"revolution"}),
@@ -244,7 +247,7 @@ std::vector<Key> obstacleKeys() {
         key("file", Type::string, "", "closed mesh, relative to the scene file: OBJ, STL, PLY or glTF")
             .required()
             .onlyFor({"mesh"}),
-        key("scale", Type::number, "", kScaleHelp)
+        key("scale", Type::number, "", "factor on the coordinates of a mesh, which are in meters")
             .defaultsTo("1")
             .within({.low = 0.0, .high = 1e9, .isLowExcluded = true})
             .onlyFor({"mesh"}),
@@ -263,7 +266,9 @@ std::vector<Key> obstacleKeys() {
             .within({-1e4, 1e4}),
         position("pivot", "point that the obstacle turns about, where it is placed without motion")
             .derivedAs("the center; of a plane, its point"),
-        key("until", Type::number, "s", "the obstacle is taken away at this time").derivedAs("no end").within(kPositive),
+        key("until", Type::number, "s", "the obstacle is taken away at this time")
+            .derivedAs("no end")
+            .within(kPositive),
         key("record", Type::boolean, "", "whether its load (force, torque, impulse and work) is recorded")
             .derivedAs("true for what moves"),
         key("restitution", Type::number, "", "speed after a rebound over the speed before; not of the paper's walls")
@@ -280,7 +285,11 @@ std::vector<Key> obstacleKeys() {
             .defaultsTo("true")
             .onlyFor({"box", "container", "sphere", "cylinder", "cone", "frustum", "capsule", "revolution", "mesh"})
             .notSimulated(),
-        key("edges", Type::boolean, "", "whether the sharp edges are drawn as lines")
+        key("faces", Type::boolean, "", "whether the surface is drawn")
+            .defaultsTo("true")
+            .onlyFor({"box", "cylinder", "cone", "frustum", "capsule", "revolution", "mesh"})
+            .notSimulated(),
+        key("edges", Type::boolean, "", "whether edges are drawn as lines, and four lines along a profile")
             .derivedAs("true for a container, false for others")
             .onlyFor({"box", "container", "cylinder", "cone", "frustum", "capsule", "revolution", "mesh"})
             .notSimulated(),

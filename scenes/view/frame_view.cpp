@@ -68,9 +68,9 @@ struct ObstaclePlaces {
     }
 };
 
-glm::mat3 toFloat(const engine::Matrix3& matrix) {
+glm::mat3 matrixInFloat(const engine::Matrix3& matrix) {
     glm::mat3 rotation;
-    for (int column = 0; column < 3; ++column) rotation[column] = scenes::toFloat(Vec3(matrix.col(column)));
+    for (int column = 0; column < 3; ++column) rotation[column] = toFloat(Vec3(matrix.col(column)));
     return rotation;
 }
 
@@ -88,7 +88,7 @@ void addObstacles(const Look& look, const ObstaclePlaces& places, render::View& 
         if (!places.isThere(solid.obstacle)) continue;
         const engine::Pose pose = places.pose(solid.obstacle);
         view.meshObstacles.push_back(
-            {solid.mesh, toFloat(pose.rotation), places.inView(pose, solid.origin), solid.color});
+            {solid.mesh, matrixInFloat(pose.rotation), places.inView(pose, solid.origin), solid.color});
     }
     for (const DrawnEdges& edges : look.edges) {
         if (!places.isThere(edges.obstacle)) continue;
