@@ -84,6 +84,10 @@ SignedDistance DistanceGrid::outside(const Vec3& point) const {
     return {bricks_.band + distance, away / distance};
 }
 
+std::size_t voxelCount(const DistanceBricks& bricks) {
+    return bricks.values.size() / kValuesPerBrick * (std::size_t{kBrickVoxels} * kBrickVoxels * kBrickVoxels);
+}
+
 std::size_t memoryOf(const DistanceBricks& bricks) {
     return bricks.values.size() * sizeof(float) + bricks.brickOf.size() * sizeof(std::uint32_t);
 }

@@ -55,6 +55,9 @@ class DistanceGrid {
     double perVoxel_ = 1.0;  // 1 / voxel
 };
 
+/// Voxels of the bricks that are stored.
+std::size_t voxelCount(const DistanceBricks& bricks);
+
 /// Memory of the values and the table of bricks, in bytes.
 std::size_t memoryOf(const DistanceBricks& bricks);
 

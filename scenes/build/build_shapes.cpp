@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "engine/core/hash.h"
 #include "scenes/shapes/image_outline.h"
 #include "scenes/shapes/mesh_distances.h"
@@ -211,28 +213,48 @@ Mesh placedMeshFrom(const Section& section, const BuildContext& context) {
     return centeredMesh(meshFrom(section, context), section.number("scale"));
 }
 
-Solid solidFrom(const Section& section, double voxel, const BuildContext& context) {
+engine::DistanceGrid gridFrom(const Section& section, double voxel, BuildContext& context) {
+    const Mesh mesh = placedMeshFrom(section, context);
+    engine::DistanceGrid grid = distancesOf(mesh, voxel, pathOf(section, "file", context));
+    context.meshNotes.push_back(fmt::format(
+        "{}: {} triangles, watertight, {:.4g} m^3; distances from it on {:.2g} voxels of {:.3g} m, {:.3g} MB",
+        section.string("file"), mesh.triangles.size(), massOf(mesh).volume,
+        static_cast<double>(engine::voxelCount(grid.bricks())), voxel,
+        static_cast<double>(engine::memoryOf(grid.bricks())) / 1e6));
+    return grid;
+}
+
+namespace {
+
+/// The solid of a body of any shape but mesh.
+Solid closedFormFrom(const Section& section, const BuildContext& context) {
     const std::string& shape = section.string("shape");
     const Placement placement = placementFrom(section, context);
     const double thickness = thicknessOf(section);
     if (shape == "ball" || shape == "shell") return ballSolid(section.number("radius"), placement, thickness);
     if (shape == "box") return cuboidSolid(section.vector("maximum") - section.vector("minimum"), placement, thickness);
-    if (shape == "mesh") {
-        const Mesh mesh = placedMeshFrom(section, context);
-        return {
-            distancesOf(mesh, voxel, pathOf(section, "file", context)), {{}, mesh.points, 0.0}, placement, thickness};
-    }
     if (!isTurned(section)) return extrusionSolid(extrusionFrom(section, context), placement, thickness);
     const ProfileSpec spec = profileFrom(section);
     return revolutionSolid(refinedProfile(spec), spec.isClosed, 0.5 * spec.thickness, placement,
                            shape == "revolution" ? 0.0 : thickness);
 }
 
+}  // namespace
+
+Solid solidFrom(const Section& section, double voxel, BuildContext& context) {
+    if (section.string("shape") != "mesh") return closedFormFrom(section, context);
+    std::vector<Vec3> points = placedMeshFrom(section, context).points;
+    return {gridFrom(section, voxel, context),
+            {{}, std::move(points), 0.0},
+            placementFrom(section, context),
+            thicknessOf(section)};
+}
+
 double reachOf(const Section& section, const Vec3& direction, const BuildContext& context) {
     // The points of a mesh reach as far as its distances do, which take longer to find.
     if (section.string("shape") == "mesh")
         return pointSolid(placedMeshFrom(section, context).points, placementFrom(section, context)).reach(direction);
-    return solidFrom(section, 1.0, context).reach(direction);
+    return closedFormFrom(section, context).reach(direction);
 }
 
 }  // namespace scenes

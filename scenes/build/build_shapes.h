@@ -27,6 +27,10 @@ const Mesh& meshFrom(const Section& section, const BuildContext& context);
 /// That mesh scaled, around the middle of its bounds: in the coordinates that placementFrom() places.
 Mesh placedMeshFrom(const Section& section, const BuildContext& context);
 
+/// The distances from that mesh, of which the context notes how many voxels they have. Throws InputError as
+/// mesh_distances.h says.
+engine::DistanceGrid gridFrom(const Section& section, double voxel, BuildContext& context);
+
 /// Where the table places its shape. The rotation is about the center.
 Placement placementFrom(const Section& section, const BuildContext& context);
 
@@ -36,6 +40,6 @@ double reachOf(const Section& section, const engine::Vec3& direction, const Buil
 /// The solid of a body.
 /// @param voxel  of the distances from a mesh, m
 /// Throws InputError if a mesh has no distances at this voxel (mesh_distances.h).
-Solid solidFrom(const Section& section, double voxel, const BuildContext& context);
+Solid solidFrom(const Section& section, double voxel, BuildContext& context);
 
 }  // namespace scenes

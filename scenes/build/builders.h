@@ -43,6 +43,7 @@ struct BuildContext {
     std::uint64_t contentHash;                      ///< hash over the contents of the files that the scene refers to
     std::vector<std::filesystem::path> files = {};  ///< these files
     std::map<std::string, Mesh> meshes = {};        ///< the meshes among them that have been read, by path
+    std::vector<std::string> meshNotes = {};        ///< what was made of the meshes, for `globular check`
     std::map<std::string, std::vector<std::uint8_t>> contents = {};  ///< likewise the contents of fonts and images
     Limits limits = {};
     double expectedParticles = 0.0;  ///< number of particles of the bodies and emitters built so far

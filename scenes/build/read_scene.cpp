@@ -218,6 +218,7 @@ Scene readScene(std::string_view text, const std::string& fileName, const Overri
                   static_cast<int>(sections.look.numbers("size")[1])};
     scene.sourceName = fileName;
     scene.files = std::move(context.files);
+    scene.meshNotes = std::move(context.meshNotes);
     scene.values = effectiveValues(sections);
     addHashes(scene, context.contentHash);
     for (const Problem& warning : warnings.sorted()) scene.warnings.push_back(formatProblem(warning));

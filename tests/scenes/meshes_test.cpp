@@ -176,11 +176,13 @@ TEST_CASE("A body of a mesh has its volume and center of mass, scaled, placed an
     Mesh cone = turnedMesh(engine::frustumProfile(0.5, 0.0, 1.0), true, 0.0);
     for (Vec3& point : cone.points) point += Vec3(5.0, 0.0, 0.0);
     folder.write("cone.obj", objOf(cone));
+    std::vector<std::string> notes;
     const auto bodyOf = [&](const std::string& keys) {
         const std::string text = scenes_test::kTop +
                                  "[[body]]\nshape = \"mesh\"\nfile = \"cone.obj\"\nspacing = 0.03\n" +
                                  "jitter = 0\nparticle_radius = 0.015\n" + keys;
         const auto scene = scenes::readScene(text, (folder.path / "pile.toml").string(), {});
+        notes = scene.meshNotes;
         Vec3 sum = Vec3::Zero();
         for (const Vec3& position : scene.setup.initial.position) sum += position;
         const auto count = static_cast<double>(scene.setup.initial.count());
@@ -190,6 +192,8 @@ TEST_CASE("A body of a mesh has its volume and center of mass, scaled, placed an
     const auto asInFile = bodyOf("");
     CHECK(asInFile.first == Approx(volume).epsilon(0.06));
     CHECK((asInFile.second - Vec3(5.0, -0.25, 0.0)).norm() <= 0.015);
+    CHECK(notes.size() == 1);
+    CHECK(notes[0].find("cone.obj: 192 triangles, watertight, 0.261") == 0);
     const auto placed = bodyOf("center = [0, 1, 0]\nscale = 2\nrotation = [0, 0, 90]\n");
     CHECK(placed.first == Approx(8.0 * volume).epsilon(0.03));
     CHECK((placed.second - Vec3(0.5, 1.0, 0.0)).norm() <= 0.015);

@@ -282,3 +282,99 @@ TEST_CASE("What is wrong with a shape is said at its key", "[shapes]") {
           std::string::npos);
     CHECK(wrong("shape = \"mesh\"\nfile = \"none.obj\"").find("none.obj: cannot") != std::string::npos);
 }
+
+namespace {
+
+std::string bigEndian(std::uint32_t number) {
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>((number >> shift) & 0xFFU);
+    return bytes;
+}
+
+std::string chunkOf(const std::string& kind, const std::string& data) {
+    std::uint32_t crc = 0xFFFFFFFFU;
+    for (const char c : kind + data) {
+        crc ^= static_cast<unsigned char>(c);
+        for (int k = 0; k < 8; ++k) crc = (crc >> 1U) ^ ((crc & 1U) != 0 ? 0xEDB88320U : 0U);
+    }
+    return bigEndian(static_cast<std::uint32_t>(data.size())) + kind + data + bigEndian(~crc);
+}
+
+/// A gray PNG without compression, of rows of letters: '#' is black, '.' white.
+std::string pngOf(const std::vector<std::string>& rows) {
+    std::string raw;
+    for (const std::string& row : rows) {
+        raw += '\0';
+        for (const char c : row) raw += c == '#' ? '\0' : '\xFF';
+    }
+    std::uint32_t a = 1;
+    std::uint32_t b = 0;
+    for (const char c : raw) {
+        a = (a + static_cast<unsigned char>(c)) % 65521;
+        b = (b + a) % 65521;
+    }
+    const auto size = static_cast<std::uint32_t>(raw.size());
+    std::string data = "\x78\x01\x01";
+    for (const std::uint32_t length : {size, ~size})
+        for (const unsigned shift : {0U, 8U}) data += static_cast<char>((length >> shift) & 0xFFU);
+    data += raw + bigEndian((b << 16U) | a);
+    const std::string header = bigEndian(static_cast<std::uint32_t>(rows[0].size())) +
+                               bigEndian(static_cast<std::uint32_t>(rows.size())) + std::string("\x08\0\0\0\0", 5);
+    return "\x89PNG\r\n\x1A\n" + chunkOf("IHDR", header) + chunkOf("IDAT", data) + chunkOf("IEND", "");
+}
+
+}  // namespace
+
+TEST_CASE("The dark pixels of an image are filled, its holes are not", "[shapes]") {
+    const std::filesystem::path folder = std::filesystem::temp_directory_path() / "globular_shapes_test";
+    std::filesystem::create_directories(folder);
+    // 10 by 8 pixels: a ring of 20 dark pixels, whose hole of 4 is light, and a dot at the lower right.
+    std::ofstream(folder / "ring.png", std::ios::binary)
+        << pngOf({"..........", ".######...", ".##..##...", ".##..##...", ".######...", "..........", "........#.",
+                  ".........."});
+    std::ofstream(folder / "no.png", std::ios::binary) << "no image";
+    std::ofstream(folder / "white.png", std::ios::binary) << pngOf({"..", ".."});
+    const auto textOf = [](const std::string& file) {
+        return kTop + "[[body]]\nshape = \"image\"\nfile = \"" + file +
+               "\"\nwidth = 1\ndepth = 0.4\nspacing = 0.02\njitter = 0\nparticle_radius = 0.01\n";
+    };
+    const auto at = (folder / "pile.toml").string();
+    const auto positions = scenes::readScene(textOf("ring.png"), at, {}).setup.initial.position;
+    // Corners between the middles of pixels are cut: 1/8 of a pixel's area at each of the ring's outer four, and all
+    // but half of the lone pixel. The hole's four gain as much.
+    CHECK(volumeOf(positions) == Approx((20.0 + 0.5) * 0.01 * 0.4).epsilon(0.08));
+    for (const Vec3& position : positions) {
+        const bool isInHole = std::abs(position.x() + 0.1) < 0.05 && std::abs(position.y() - 0.1) < 0.05;
+        CHECK(!isInHole);
+        CHECK(std::abs(position.z()) <= 0.2 + 1e-6);
+    }
+    // Pixel (8, 6) is at 8.5 - 5 and 4 - 6.5 tenths.
+    CHECK(std::ranges::any_of(positions, [](const Vec3& p) { return (p - Vec3(0.35, -0.25, 0.0)).norm() < 0.02; }));
+    const auto problemWith = [&](const std::string& file) {
+        try {
+            scenes::readScene(textOf(file), at, {});
+        } catch (const scenes::InputError& error) {
+            return scenes::formatProblem(error.problems()[0]);
+        }
+        return std::string();
+    };
+    CHECK(problemWith("no.png").find("not a PNG") != std::string::npos);
+    CHECK(problemWith("white.png").find("the image has no pixel that is darker than middle gray") != std::string::npos);
+    CHECK(problemWith("none.png").find("none.png: cannot") != std::string::npos);
+    std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("The height of a body of any form tells the compression of its material", "[shapes]") {
+    const auto depthOf = [](const std::string& shape) {
+        const auto scene =
+            scenes_test::sceneOf(kTop + "[[material]]\nradius = 0.02\ncompression = 0.1\n[[body]]\n" + shape);
+        return scene.bodyColumns.at(0).shape.height;
+    };
+    CHECK(depthOf("shape = \"cylinder\"\nradius = 0.2\nheight = 0.8\n") == Approx(0.8));
+    CHECK(depthOf("shape = \"cylinder\"\nradius = 0.2\nheight = 0.8\nrotation = [90, 0, 0]\n") == Approx(0.4));
+    // At 45 degrees: (0.8 + 0.4) / sqrt(2).
+    CHECK(depthOf("shape = \"cylinder\"\nradius = 0.2\nheight = 0.8\nrotation = [45, 0, 0]\n") ==
+          Approx(1.2 / std::sqrt(2.0)));
+    CHECK(depthOf("shape = \"revolution\"\nprofile = [[0.5, 1]]\nthickness = 0.3\n") == Approx(0.3));
+    CHECK(depthOf("shape = \"text\"\ntext = \"I\"\nheight = 0.7\ndepth = 0.3\n") == Approx(0.7));
+}

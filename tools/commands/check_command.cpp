@@ -133,6 +133,7 @@ Json sceneJson(const scenes::Scene& scene) {
         json["materials"].push_back(materialJson(scene.setup.materials[index], scene.materialNotes[index]));
     json["bodies"] = Json::array();
     for (const scenes::BodyColumn& body : scene.bodyColumns) json["bodies"].push_back(bodyJson(body));
+    json["meshes"] = scene.meshNotes;
     json["uniform"] = terms.uniform();
     json["cutoff"] = terms.cutoff;
     json["obstacles"] = scene.setup.obstacles.shapes.size();
@@ -346,6 +347,7 @@ std::string checkText(const Json& json) {
             text += fmt::format("           {}\n", note);
     }
     text += bodiesText(json["bodies"]);
+    for (const Json& mesh : json["meshes"]) text += fmt::format("mesh       {}\n", mesh.get<std::string>());
     text += fmt::format("obstacles  {}\n", json["obstacles"].get<std::size_t>());
     text += predictedText(json);
     text += ranksText(json);
