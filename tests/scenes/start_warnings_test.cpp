@@ -1,6 +1,6 @@
 // Warnings about particles that start inside obstacles, in gaps without room, or within one another; and none of scenes
 // that are as they should be.
-#include "scenes/build/start_warnings.h"
+#include "scenes/warnings/start_warnings.h"
 
 #include <cstdio>
 #include <filesystem>

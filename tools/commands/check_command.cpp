@@ -18,7 +18,7 @@
 #include "engine/run/strays.h"
 #include "engine/stepping/step_bound.h"
 #include "engine/stepping/take_step.h"
-#include "scenes/build/start_warnings.h"
+#include "scenes/warnings/start_warnings.h"
 #include "studies/scaling/rank_model.h"
 #include "tools/commands/commands.h"
 #include "tools/run/forecast.h"

@@ -90,7 +90,7 @@ scenes::Scene load(const SceneOptions& options, const scenes::Overrides& more = 
 /// @throws ExitStatus with kInputErrorCode
 void refuse(const std::vector<std::string>& warnings);
 
-/// Prints the warnings about the start of a scene (scenes/build/start_warnings.h). If the options are strict, throws
+/// Prints the warnings about the start of a scene (scenes/warnings/start_warnings.h). If the options are strict, throws
 /// them as errors, with those of the scene file.
 /// @param threads  number of threads to look for them with
 /// @throws ExitStatus as refuse()

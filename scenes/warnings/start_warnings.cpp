@@ -1,5 +1,5 @@
 // Collects the messages about a scene's start, and puts into words what they name.
-#include "scenes/build/start_warnings.h"
+#include "scenes/warnings/start_warnings.h"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <cmath>
 #include <variant>
 
-#include "scenes/build/emission_warnings.h"
-#include "scenes/build/start_findings.h"
 #include "scenes/text/input_error.h"
+#include "scenes/warnings/emission_warnings.h"
+#include "scenes/warnings/start_findings.h"
 
 namespace scenes {
 namespace {

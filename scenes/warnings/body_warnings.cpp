@@ -10,7 +10,7 @@
 
 #include "engine/neighbors/neighbor_list.h"
 #include "engine/neighbors/pair_estimate.h"
-#include "scenes/build/start_findings.h"
+#include "scenes/warnings/start_findings.h"
 
 namespace scenes {
 namespace {

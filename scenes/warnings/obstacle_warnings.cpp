@@ -13,7 +13,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/neighbors/pair_estimate.h"
-#include "scenes/build/start_findings.h"
+#include "scenes/warnings/start_findings.h"
 
 namespace scenes {
 namespace {

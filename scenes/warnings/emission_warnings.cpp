@@ -1,5 +1,5 @@
 // Compares the rate that an emitter is asked for with what fits.
-#include "scenes/build/emission_warnings.h"
+#include "scenes/warnings/emission_warnings.h"
 
 #include <fmt/format.h>
 

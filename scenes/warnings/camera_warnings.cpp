@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "engine/neighbors/pair_estimate.h"
-#include "scenes/build/start_findings.h"
+#include "scenes/warnings/start_findings.h"
 
 namespace scenes {
 namespace {
