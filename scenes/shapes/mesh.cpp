@@ -44,6 +44,23 @@ std::optional<double> hitDistance(const Vec3& origin, const Vec3& direction, con
     return engine::dot(other, turned) / determinant;
 }
 
+/// Calls visit(point) for the middles of equal parts of a triangle whose edges are at most `step` long, or a 32nd of
+/// the triangle's.
+template <class Visit>
+void forEachSample(const std::array<Vec3, 3>& corners, double step, const Visit& visit) {
+    const Vec3 one = corners[1] - corners[0];
+    const Vec3 other = corners[2] - corners[0];
+    const double longest = std::sqrt(
+        std::max({engine::squaredLength(one), engine::squaredLength(other), engine::squaredLength(other - one)}));
+    const int parts = static_cast<int>(std::clamp(std::ceil(longest / step), 1.0, 32.0));
+    for (int i = 0; i < parts; ++i)
+        for (int j = 0; j < parts - i; ++j)
+            for (int flipped = 0; flipped < (j < parts - i - 1 ? 2 : 1); ++flipped) {
+                const double shift = flipped == 1 ? 2.0 / 3.0 : 1.0 / 3.0;
+                visit(Vec3(corners[0] + (i + shift) / parts * one + (j + shift) / parts * other));
+            }
+}
+
 std::string placeText(const Vec3& point) {
     return fmt::format("({:.6g}, {:.6g}, {:.6g})", point.x(), point.y(), point.z());
 }
@@ -172,16 +189,15 @@ ThinPlace thinnestPlace(const Mesh& mesh, double thickness) {
     ThinPlace thinnest;
     thinnest.thickness = thickness;
     constexpr double kOpposite = -0.9;  // cosine of 154 degrees between the normals of both sides
-    for (std::size_t index = 0; index < mesh.triangles.size(); ++index) {
-        const auto [a, b, c] = cornersOf(mesh, mesh.triangles[index]);
-        const Vec3 middle = (a + b + c) / 3.0;
-        tree.visitNear(middle, thickness, [&](std::uint32_t other) {
-            if (other == index || !(engine::dot(normals[index], normals[other]) < kOpposite)) return;
-            const auto distance = hitDistance(middle, -normals[index], cornersOf(mesh, mesh.triangles[other]));
-            if (!distance || *distance < 0.0 || *distance >= thinnest.thickness) return;
-            thinnest = {true, middle, *distance};
+    for (std::size_t index = 0; index < mesh.triangles.size(); ++index)
+        forEachSample(cornersOf(mesh, mesh.triangles[index]), 8.0 * thickness, [&](const Vec3& sample) {
+            tree.visitNear(sample, thickness, [&](std::uint32_t other) {
+                if (other == index || !(engine::dot(normals[index], normals[other]) < kOpposite)) return;
+                const auto distance = hitDistance(sample, -normals[index], cornersOf(mesh, mesh.triangles[other]));
+                if (!distance || *distance < 0.0 || *distance >= thinnest.thickness) return;
+                thinnest = {true, sample, *distance};
+            });
         });
-    }
     return thinnest;
 }
 

@@ -33,8 +33,8 @@ engine::BoundingBox boundsOf(const Mesh& mesh);
 /// nothing does. Names the first open edge by its ends, in the mesh's coordinates.
 std::string meshProblem(const Mesh& mesh);
 
-/// Where the solid that a closed mesh encloses is thinner than given, as the middle of a triangle and the distance of
-/// its opposite; nothing if it is so nowhere. Wedges of less than 25 degrees count as thin at their edge.
+/// Where the solid that a closed mesh encloses is thinner than given, as a point of a triangle and the distance of its
+/// opposite; nothing if it is so nowhere. Wedges of less than 25 degrees count as thin at their edge.
 struct ThinPlace {
     bool isFound = false;
     engine::Vec3 place = engine::Vec3::Zero();  ///< m

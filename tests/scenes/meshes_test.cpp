@@ -168,6 +168,12 @@ TEST_CASE("A wall thinner than two voxels is refused with its place", "[meshes]"
     } catch (const scenes::InputError& error) {
         CHECK(error.problems()[0].message.find("the mesh is 0.03 m thin near (") == 0);
     }
+    // A wedge whose sides are two triangles each, thin along one edge alone: 0.02 to 0.2 over 2.
+    Mesh wedge = boxMesh({2.0, 0.2, 1.0});
+    for (Vec3& point : wedge.points)
+        if (point.x() > 0.0) point.y() *= 0.1;
+    CHECK(!scenes::thinnestPlace(wedge, 0.019).isFound);
+    CHECK(scenes::thinnestPlace(wedge, 0.04).place.x() > 0.6);
     CHECK_THROWS_AS(scenes::distancesOf(boxMesh({100.0, 100.0, 100.0}), 0.01, "large.obj"), scenes::InputError);
 }
 
