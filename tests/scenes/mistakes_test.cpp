@@ -147,7 +147,9 @@ TEST_CASE("the message for a wrong choice lists all, and suggests the nearest") 
                 "\"honey\", \"jam\", \"oil\", \"lava\", \"mud\", \"molten-metal\" or \"sand\", "
                 "did you mean \"liquid\"?"});
     CHECK(problemsOf(kTop + "[[body]]\nshape = \"torus\"\n") ==
-          Lines{"pile.toml:4:9: shape is \"torus\", must be \"box\", \"ball\", \"grid\", \"points\" or \"file\""});
+          Lines{"pile.toml:4:9: shape is \"torus\", must be \"box\", \"ball\", \"grid\", \"cylinder\", "
+                "\"cone\", \"frustum\", \"capsule\", \"shell\", \"revolution\", \"mesh\", \"text\", \"image\", "
+                "\"points\" or \"file\""});
 }
 
 TEST_CASE("missing keys are reported at the table that needs them") {
@@ -178,7 +180,8 @@ TEST_CASE("missing keys are reported at the table that needs them") {
 
 TEST_CASE("keys that do not apply to the shape are rejected") {
     CHECK(problemsOf(kTop + "[[body]]\nshape = \"box\"\nminimum = [0, 0, 0]\nmaximum = [1, 1, 1]\nradius = 1\n") ==
-          Lines{"pile.toml:7:1: radius does not apply to shape \"box\", only to ball"});
+          Lines{"pile.toml:7:1: radius does not apply to shape \"box\", only to ball, cylinder, cone, "
+                "frustum, capsule, shell"});
     CHECK(problemsOf(kBall + "[camera]\nhalf_height = 3\n") ==
           Lines{"pile.toml:7:1: half_height does not apply to projection \"perspective\", only to orthographic"});
     CHECK(problemsOf(kBall + "[look]\ncolors = [\"#000000\"]\n") ==

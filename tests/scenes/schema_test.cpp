@@ -85,7 +85,8 @@ TEST_CASE("rows show each key with type, unit, default, range and help") {
     CHECK(row("still.time").defaultText == "(half the duration)");
     CHECK(row("physics.stepper").range ==
           "symplectic-euler | velocity-verlet | leapfrog | implicit-damping | linearly-implicit | auto");
-    CHECK(row("body[].center").appliesTo == "shape ball, grid");
+    CHECK(row("body[].center").appliesTo ==
+          "shape ball, grid, cylinder, cone, frustum, capsule, shell, revolution, mesh, text, image");
     CHECK(row("material[].core").range == "> 0 and < 1");
 }
 

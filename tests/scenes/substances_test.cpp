@@ -144,7 +144,7 @@ TEST_CASE("what cannot be refined is named") {
         problemsOf("title = \"t\"\nduration = 2\nresolution = 2\n[[body]]\nshape = \"points\"\npositions = [[0, 0, "
                    "0]]\n") ==
         Lines{"pile.toml:6:13: resolution is 2, but particles that are given one by one cannot be refined: use a box, "
-              "a ball or a grid, or leave resolution at 1"});
+              "a ball or another shape that is filled, or leave resolution at 1"});
     CHECK(problemsOf("title = \"t\"\nduration = 2\n[[body]]\nshape = \"file\"\nfile = \"a.ply\"\n", {"resolution=2"})
               .front()
               .find("pile.toml:5:8: resolution is 2") == 0);
