@@ -74,7 +74,7 @@ std::vector<Vec3> boxPositions(const Vec3& minimum, const Vec3& maximum, const P
 
 // The lattice is cut into blocks, of which those that are far from the shape are left out as a whole.
 std::vector<Vec3> positionsInside(const BoundingBox& bounds, const std::function<double(const Vec3&)>& distance,
-                                  const Packing& packing) {
+                                  const Packing& packing, std::size_t most) {
     constexpr int kBlock = 8;  // layers along the edge of a block; chosen: as many as a brick of distances has voxels
     const double halfEdge = layerDistance(packing.spacing);
     const double blockRadius = 0.5 * std::sqrt(3.0) * kBlock * halfEdge;
@@ -88,7 +88,7 @@ std::vector<Vec3> positionsInside(const BoundingBox& bounds, const std::function
     std::vector<Vec3> positions;
     const auto visitBlock = [&](int x0, int y0, int z0) {
         const Vec3 blockMiddle = middle + halfEdge * (Vec3(x0, y0, z0) + Vec3::Constant(0.5 * (kBlock - 1)));
-        if (distance(blockMiddle) > blockRadius) return;
+        if (positions.size() >= most || distance(blockMiddle) > blockRadius) return;
         for (int z = z0; z < std::min(z0 + kBlock, reach[2] + 1); ++z)
             for (int y = y0; y < std::min(y0 + kBlock, reach[1] + 1); ++y)
                 for (int x = x0; x < std::min(x0 + kBlock, reach[0] + 1); ++x) {

@@ -35,8 +35,9 @@ std::vector<Vec3> boxPositions(const Vec3& minimum, const Vec3& maximum, const P
 /// lattice has a point in the middle of the bounds.
 /// @param bounds  of the shape, m
 /// @param distance  signed distance of a point from the shape, m; outside, at most the distance
+/// @param most  number of positions after which no more are looked for
 std::vector<Vec3> positionsInside(const BoundingBox& bounds, const std::function<double(const Vec3&)>& distance,
-                                  const Packing& packing);
+                                  const Packing& packing, std::size_t most);
 
 /// A cubic lattice of counts[0] x counts[1] x counts[2] positions around a center, in meters.
 /// A direction with a single layer gets no jitter, so that a planar body stays planar.

@@ -104,13 +104,16 @@ std::vector<Vec3> solidPositions(const Body& body, BuildContext& context) {
             return {};
         }
         std::vector<Vec3> positions = engine::positionsInside(
-            solid.bounds(), [&](const Vec3& point) { return solid.distance(point); }, packing);
-        addExpectedParticles(section, "shape", static_cast<double>(positions.size()), "the body has", context);
-        if (positions.empty())
+            solid.bounds(), [&](const Vec3& point) { return solid.distance(point); }, packing,
+            static_cast<std::size_t>(context.limits.particles) + 1);
+        if (positions.empty()) {
             report(section, "shape", context,
                    "no particle fits into the body: it is thinner than the spacing, {:.6g} m; make it larger, or its "
                    "particles smaller",
                    packing.spacing);
+            return {};
+        }
+        addExpectedParticles(section, "shape", static_cast<double>(positions.size()), "the body has", context);
         return positions;
     } catch (const InputError& error) {
         section.markInvalid();

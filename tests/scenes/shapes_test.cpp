@@ -378,3 +378,20 @@ TEST_CASE("The height of a body of any form tells the compression of its materia
     CHECK(depthOf("shape = \"revolution\"\nprofile = [[0.5, 1]]\nthickness = 0.3\n") == Approx(0.3));
     CHECK(depthOf("shape = \"text\"\ntext = \"I\"\nheight = 0.7\ndepth = 0.3\n") == Approx(0.7));
 }
+
+TEST_CASE("A body that is too thin or too large is refused", "[shapes]") {
+    const std::string particles = "\nspacing = 0.01\nparticle_radius = 0.005\n";
+    const Lines thin = problemsOf(kTop +
+                                  "[[body]]\nshape = \"cone\"\nradius = 0.0001\nheight = 0.0001\ncenter = [1, 0, 0]\n"
+                                  "rotation = [0, 0, 1]\nthickness = 0.00001" +
+                                  particles);
+    REQUIRE(thin.size() == 1);
+    CHECK(thin[0].find("pile.toml:4:9: no particle fits into the body: it is thinner than the spacing, 0.01 m") == 0);
+    const Lines full = problemsOf(kTop + "[[body]]\nshape = \"cylinder\"\nradius = 20\nheight = 40" + particles);
+    REQUIRE(full.size() == 1);
+    CHECK(full[0].find("pile.toml:4:9: the body would have about 7.1e+10 particles") == 0);
+    // So thin that the samples of its volume miss it.
+    const Lines shell = problemsOf(kTop + "[[body]]\nshape = \"shell\"\nradius = 20\nthickness = 0.01" + particles);
+    REQUIRE(shell.size() == 1);
+    CHECK(shell[0].find("particles, at most 2000000 are allowed") != std::string::npos);
+}
