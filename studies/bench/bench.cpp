@@ -16,6 +16,7 @@
 #include "engine/stepping/take_step.h"
 #include "render/renderer.h"
 #include "scenes/view/frame_view.h"
+#include "studies/bench/mesh_pictures.h"
 #include "studies/bench/packings.h"
 #include "studies/common/fcc_cube.h"
 #include "studies/common/timing.h"
@@ -186,8 +187,10 @@ void measureLattice(const Packing& packing, std::size_t count, const BenchSettin
 std::string benchRowsText() {
     std::vector<std::string> names;
     for (const Packing& packing : packings()) names.emplace_back(packing.name);
-    return fmt::format("multiply-add, copy; {} of {}, steps up to {} particles", fmt::join(rowNames(0), ", "),
-                       fmt::join(names, ", "), kMostStepped);
+    std::vector<std::string> pictures;
+    for (const std::size_t triangles : meshSizes()) pictures.push_back(meshPictureName(triangles));
+    return fmt::format("multiply-add, copy; {} of torus; {} of {}, steps up to {} particles", fmt::join(pictures, ", "),
+                       fmt::join(rowNames(0), ", "), fmt::join(names, ", "), kMostStepped);
 }
 
 std::vector<BenchRow> runBench(const BenchSettings& settings, const std::function<void(const BenchRow&)>& listener) {
@@ -198,6 +201,8 @@ std::vector<BenchRow> runBench(const BenchSettings& settings, const std::functio
     };
     if (settings.wants("multiply-add", "")) add(multiplyAddRow(settings));
     if (settings.wants("copy", "")) add(copyRow(settings));
+    for (const std::size_t triangles : meshSizes())
+        if (settings.wants(meshPictureName(triangles), kMeshPicture)) add(meshPictureRow(triangles, settings));
     for (const std::size_t count : settings.counts)
         for (const Packing& packing : packings()) measureLattice(packing, count, settings, add);
     return rows;

@@ -19,7 +19,7 @@ inline constexpr const char* kDrawFrame = "draw frame";
 /// One measurement of the benchmark.
 struct BenchRow {
     /// What was measured: "forces", "list", "step velocity-verlet" (or another stepper), kSimulateFrame, kDrawFrame,
-    /// "multiply-add" or "copy".
+    /// "draw 1000 triangles" (or another number), "multiply-add" or "copy".
     std::string name;
     std::string material;  ///< lattice or scene that was measured on; empty for the machine's loops
     std::size_t particles = 0;

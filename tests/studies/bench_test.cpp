@@ -45,7 +45,7 @@ TEST_CASE("bench measures the rows that the filter names", "[bench]") {
 }
 
 TEST_CASE("bench computes the same hashes on any number of threads", "[bench]") {
-    for (const char* filter : {"forces", "list", "step"}) {
+    for (const char* filter : {"forces", "list", "step", "triangles"}) {
         const auto one = benched(filter, 1);
         const auto three = benched(filter, 3);
         REQUIRE(one.size() == three.size());
