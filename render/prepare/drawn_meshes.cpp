@@ -13,12 +13,12 @@ namespace render {
 
 namespace {
 
-constexpr std::size_t kChunk = 4096;  // corners or triangles that one task handles; chosen
+constexpr std::size_t kPlacedAtOnce = 4096;  // corners or triangles that one task handles; chosen
 
 /// Calls visit(k) for all k below count, in parallel.
 template <typename Visit>
-void forEach(std::size_t count, const Visit& visit) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kChunk), [&](const auto& range) {
+void inParallel(std::size_t count, const Visit& visit) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kPlacedAtOnce), [&](const auto& range) {
         for (std::size_t k = range.begin(); k < range.end(); ++k) visit(k);
     });
 }
@@ -28,13 +28,13 @@ void place(const MeshObstacle& obstacle, glm::vec3 eye, std::size_t firstCorner,
            DrawnMeshes& meshes) {
     const SolidMesh& mesh = *obstacle.mesh;
     const glm::vec3 offset = obstacle.position - eye;
-    forEach(mesh.positions.size(), [&](std::size_t k) {
+    inParallel(mesh.positions.size(), [&](std::size_t k) {
         meshes.positions[firstCorner + k] = obstacle.rotation * mesh.positions[k] + offset;
         meshes.normals[firstCorner + k] = obstacle.rotation * mesh.normals[k];
     });
     const auto first = static_cast<std::uint32_t>(firstCorner);
     const auto number = static_cast<std::uint32_t>(meshes.colors.size());
-    forEach(mesh.triangles.size(), [&](std::size_t k) {
+    inParallel(mesh.triangles.size(), [&](std::size_t k) {
         const auto& [a, b, c] = mesh.triangles[k];
         meshes.triangles[firstTriangle + k] = {{first + a, first + b, first + c}, number};
     });

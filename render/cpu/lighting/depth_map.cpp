@@ -125,7 +125,7 @@ class HeightCast {
 }  // namespace
 
 DepthMap castDepthMap(const DepthMapGrid& grid, const MetaballScene& scene) {
-    DepthMap map = emptyDepthMap(grid);
+    DepthMap map = sizedDepthMap(grid);
     HeightCast(scene, map).run();
     return map;
 }

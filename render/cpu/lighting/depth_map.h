@@ -28,11 +28,12 @@ struct DepthMap : DepthMapGrid {
 /// Largest height that can be stored, in steps of the map.
 inline constexpr float kMostSteps = 65535.0F;
 
-/// A depth map without any surface.
+/// A depth map with room for a grid. It has no surface yet, or what is left of an old map.
 /// @param old  a map that is no longer needed, whose memory is reused
-DepthMap emptyDepthMap(const DepthMapGrid& grid, DepthMap old = {});
+DepthMap sizedDepthMap(const DepthMapGrid& grid, DepthMap old = {});
 
-/// Sets DepthMap::lowest and DepthMap::highest.
+/// Sets DepthMap::lowest and DepthMap::highest of all texels but two rows and columns at the border, which no filter
+/// is centered on.
 void findHeightBounds(DepthMap& map);
 
 /// Casts the depth map of the metaballs of a view.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -56,6 +57,9 @@ class MeshHeights {
     void drawAll() {
         const CellLists bands = listByBand();
         tbb::parallel_for(0, bands.rows, [&](int band) {
+            const std::ptrdiff_t last = std::min((band + 1) * kBandRows, rows_);
+            std::fill(map_.heights.begin() + std::ptrdiff_t{band} * kBandRows * columns_,
+                      map_.heights.begin() + last * columns_, std::uint16_t{0});
             for (const std::uint32_t index : bands.itemsOf(static_cast<std::size_t>(band)))
                 draw(cornersOf(index), band * kBandRows, std::min((band + 1) * kBandRows, rows_) - 1);
         });
@@ -90,7 +94,8 @@ class MeshHeights {
 
     /// The columns between the edges of a triangle that cross a row. An edge crosses it at the same place in both of
     /// its triangles, up to the rounding.
-    Span spanOf(const Corners& at, double row) const {
+    /// @param slopes  of the edges, in columns a row
+    Span spanOf(const Corners& at, const std::array<double, 3>& slopes, double row) const {
         double low = std::numeric_limits<double>::max();
         double high = std::numeric_limits<double>::lowest();
         const auto add = [&](double x) {
@@ -101,7 +106,7 @@ class MeshHeights {
             const glm::dvec3& from = at[k];
             const glm::dvec3& to = at[(k + 1) % 3];
             if (from.y == row) add(from.x);
-            if ((from.y < row) != (to.y < row)) add(from.x + (row - from.y) / (to.y - from.y) * (to.x - from.x));
+            if ((from.y < row) != (to.y < row)) add(from.x + (row - from.y) * slopes[k]);
         }
         if (high < low) return {};
         return {std::max(static_cast<int>(std::ceil(low - kSlack)), 0),
@@ -121,8 +126,13 @@ class MeshHeights {
         const auto [firstY, lastY] = std::minmax({at[0].y, at[1].y, at[2].y});
         const int first = std::max(top, static_cast<int>(std::ceil(std::max(firstY, 0.0))));
         const int last = std::min(bottom, static_cast<int>(std::floor(lastY)));
+        std::array<double, 3> slopes;  // of each edge, columns a row
+        for (std::size_t k = 0; k < 3; ++k) {
+            const glm::dvec3 along = at[(k + 1) % 3] - at[k];
+            slopes[k] = along.y == 0.0 ? 0.0 : along.x / along.y;
+        }
         for (int row = first; row <= last; ++row) {
-            const Span span = spanOf(at, row);
+            const Span span = spanOf(at, slopes, row);
             const auto start = static_cast<float>(at[0].z + slopeX * (span.first - at[0].x) + slopeY * (row - at[0].y));
             const auto slope = static_cast<float>(slopeX);
             std::uint16_t* heights =
@@ -144,7 +154,7 @@ class MeshHeights {
 }  // namespace
 
 DepthMap meshDepthMap(const LightBasis& basis, const DepthMapGrid& grid, const DrawnMeshes& meshes, DepthMap old) {
-    DepthMap map = emptyDepthMap(grid, std::move(old));
+    DepthMap map = sizedDepthMap(grid, std::move(old));
     MeshHeights(basis, meshes, map).drawAll();
     findHeightBounds(map);
     return map;

@@ -1,16 +1,16 @@
 // Triangles with Highway, one ray per lane; this file is compiled once per instruction set.
 //
-// Let P0, P1, P2 be the corners of a triangle in homogeneous coordinates of the picture, and d = (x, y, 1) a point of
-// the picture. The ray through it meets the plane of the triangle at l0 P0 + l1 P1 + l2 P2 = t d, from which by
+// Where all corners of a triangle lie before the eye, its edge functions come from the places of the corners on the
+// picture. Otherwise let P0, P1, P2 be the corners in homogeneous coordinates of the picture, and d = (x, y, 1) a point
+// of it. The ray through the point meets the plane of the triangle at l0 P0 + l1 P1 + l2 P2 = t d, from which by
 // Cramer's rule
 //   l0 = t dot(d, cross(P1, P2)) / det,  and l1, l2 likewise,  with  det = dot(P0, cross(P1, P2)),
 // so that the ray meets the triangle before the eye where the three edge functions dot(d, cross(Pi, Pj)) have the sign
 // of det. Nothing needs to be clipped at the eye's plane (Olano and Greer 1997, triangle scan conversion using 2D
-// homogeneous coordinates). As l0 + l1 + l2 = 1, the sum of the edge functions over det is 1/t. In perspective t is the
-// view depth; in parallel projection, where w is 1, the depth is l0 z0 + l1 z1 + l2 z2. Both are linear in d.
+// homogeneous coordinates). As l0 + l1 + l2 = 1, the sum of the edge functions over det is 1/t, and t the view depth.
 //
-// The coefficients are computed in double precision for the corner of a tile. Two triangles that share an edge have
-// the same coefficients for it, but for the sign: rounding never opens a gap between them.
+// Two triangles that share an edge have the same edge function for it, but for the sign: rounding opens no gap between
+// them, unless a part of just one of them lies behind the eye.
 #include "render/cpu/raster/mesh_hits.h"
 
 #include <algorithm>
@@ -45,33 +45,63 @@ inline double inversePowerOfTwo(double number) {
     return std::bit_cast<double>(std::clamp<std::uint64_t>(2046U - exponent, 1U, 2046U) << 52U);
 }
 
-inline TriangleSetup triangleSetup(const MeshTiles& meshes, bool perspective, std::uint32_t index, glm::dvec2 corner) {
+/// Sets the functions of a triangle of which a part lies behind the eye.
+inline void setUpCut(const SolidGeometry& geometry, const DrawnTriangle& triangle, glm::dvec2 corner,
+                     TriangleSetup& setup) {
     using glm::dvec3;
-    const auto& [a, b, c] = meshes.meshes->triangles[index].corners;
-    const dvec3& p0 = meshes.corners[a];
-    const dvec3& p1 = meshes.corners[b];
-    const dvec3& p2 = meshes.corners[c];
-    const std::array<dvec3, 3> normals{cross(p1, p2), cross(p2, p0), cross(p0, p1)};
-    const double volume = dot(p0, normals[0]);
+    std::array<dvec3, 3> points;
+    for (std::size_t k = 0; k < 3; ++k)
+        points[k] = homogeneousOnPicture(geometry.frame, geometry.meshes->meshes->positions[triangle.corners[k]]);
+    const std::array<dvec3, 3> planes{cross(points[1], points[2]), cross(points[2], points[0]),
+                                      cross(points[0], points[1])};
+    const double volume = dot(points[0], planes[0]);
     const auto atCorner = [&](const dvec3& plane) {
         return dvec3(plane.x, plane.y, plane.x * corner.x + plane.y * corner.y + plane.z);
     };
     double most = 0.0;
-    TriangleSetup setup;
-    std::array<dvec3, 3> edges;
-    for (std::size_t k = 0; k < 3; ++k) {
-        edges[k] = atCorner(normals[k]);
-        most = std::max({most, std::abs(edges[k].x), std::abs(edges[k].y), std::abs(edges[k].z)});
+    for (const dvec3& plane : planes) {
+        const dvec3 edge = abs(atCorner(plane));
+        most = std::max({most, edge.x, edge.y, edge.z});
     }
     // Scaling by a power of two rounds nothing, so that the functions of a shared edge stay the same.
     const double scale = std::copysign(inversePowerOfTwo(most), volume);
-    for (std::size_t k = 0; k < 3; ++k) setup.edges[k] = glm::vec3(scale * edges[k]);
-    const dvec3 sum = perspective ? normals[0] + normals[1] + normals[2]
-                                  : normals[0] * double(meshes.depths[a]) + normals[1] * double(meshes.depths[b]) +
-                                        normals[2] * double(meshes.depths[c]);
-    setup.depth = glm::vec3(atCorner(sum) / volume);
+    for (std::size_t k = 0; k < 3; ++k) setup.edges[k] = glm::vec3(scale * atCorner(planes[k]));
+    setup.depth = glm::vec3(atCorner(planes[0] + planes[1] + planes[2]) / volume);
+}
+
+/// Sets the functions of a triangle before the eye from its corners on the picture.
+/// @param corners  as in MeshTiles, but from the tile's corner
+inline void setUpWhole(const std::array<glm::vec3, 3>& corners, TriangleSetup& setup) {
+    const auto& [a, b, c] = corners;
+    const glm::vec3 toB = b - a;
+    const glm::vec3 toC = c - a;
+    const float area = toB.x * toC.y - toB.y * toC.x;
+    const float side = area < 0.0F ? -1.0F : 1.0F;
+    const auto edge = [&](const glm::vec3& from, const glm::vec3& to) {
+        return side * glm::vec3(from.y - to.y, to.x - from.x, from.x * to.y - to.x * from.y);
+    };
+    setup.edges = {edge(b, c), edge(c, a), edge(a, b)};
+    // In double precision, because far from its nearest corner 1 / view depth is a small difference.
+    const glm::dvec3 first(toB);
+    const glm::dvec3 second(toC);
+    const double inverse = 1.0 / (first.x * second.y - first.y * second.x);
+    const double across = (first.z * second.y - second.z * first.y) * inverse;
+    const double down = (second.z * first.x - first.z * second.x) * inverse;
+    setup.depth = glm::vec3(across, down, double(a.z) - across * double(a.x) - down * double(a.y));
+}
+
+inline TriangleSetup triangleSetup(const SolidGeometry& geometry, std::uint32_t index, glm::vec2 corner) {
+    const MeshTiles& meshes = *geometry.meshes;
+    const DrawnTriangle& triangle = meshes.meshes->triangles[index];
+    TriangleSetup setup;
     setup.front = meshes.bounds[index].front;
     setup.back = meshes.bounds[index].back;
+    if (isCut(geometry.frame, setup.front, setup.back)) {
+        setUpCut(geometry, triangle, glm::dvec2(corner), setup);
+        return setup;
+    }
+    const auto fromTile = [&](std::size_t k) { return meshes.corners[triangle.corners[k]] - glm::vec3(corner, 0.0F); };
+    setUpWhole({fromTile(0), fromTile(1), fromTile(2)}, setup);
     return setup;
 }
 
@@ -82,22 +112,42 @@ HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 
-/// The rays of a tile's samples: positions in pixels from the tile's corner.
-struct MeshRays {
-    alignas(64) std::array<std::array<float, kTilePixels>, 4> x, y;
-    alignas(64) std::array<float, kTilePixels> farthest;  ///< the greatest depth of a pixel's samples so far
+/// Side of a block of pixels. A small triangle touches fewer blocks than parts of rows.
+constexpr int kBlockSide = 4;
+constexpr int kBlocksInRow = kTileSize / kBlockSide;
 
-    MeshRays(glm::vec2 corner, std::span<const TileRays> samples) {
-        const D d;
-        for (std::size_t first = 0; first < kTilePixels; first += hn::Lanes(d)) {
-            V most = splat(0.0F);
-            for (std::size_t s = 0; s < samples.size(); ++s) {
-                store(load(&samples[s].x[first]) - splat(corner.x), &x[s][first]);
-                store(load(&samples[s].y[first]) - splat(corner.y), &y[s][first]);
-                most = hn::Max(most, load(&samples[s].depth[first]));
+/// The samples of a tile, one block of pixels after another.
+struct BlockSamples {
+    alignas(64) std::array<std::array<float, kTilePixels>, 4> depth;
+    alignas(64) std::array<std::array<std::int32_t, kTilePixels>, 4> hitId;
+    alignas(64) std::array<float, kTilePixels> column, row;  ///< of each pixel
+    alignas(64) std::array<float, kTilePixels> farthest;     ///< the greatest depth of a pixel's samples so far
+    std::size_t count;                                       ///< number of samples
+
+    explicit BlockSamples(std::span<const TileRays> samples) : count(samples.size()) {
+        forParts([&](std::size_t inBlocks, std::size_t inRows) {
+            for (std::size_t s = 0; s < count; ++s) {
+                std::copy_n(&samples[s].depth[inRows], kBlockSide, &depth[s][inBlocks]);
+                std::copy_n(&samples[s].hitId[inRows], kBlockSide, &hitId[s][inBlocks]);
             }
-            store(most, &farthest[first]);
+            for (std::size_t k = 0; k < kBlockSide; ++k) {
+                column[inBlocks + k] = static_cast<float>((inRows + k) % kTileSize);
+                row[inBlocks + k] = static_cast<float>(inRows / kTileSize);
+            }
+        });
+        for (std::size_t k = 0; k < kTilePixels; ++k) {
+            farthest[k] = depth[0][k];
+            for (std::size_t s = 1; s < count; ++s) farthest[k] = std::max(farthest[k], depth[s][k]);
         }
+    }
+
+    void copyTo(std::span<TileRays> samples) const {
+        forParts([&](std::size_t inBlocks, std::size_t inRows) {
+            for (std::size_t s = 0; s < count; ++s) {
+                std::copy_n(&depth[s][inBlocks], kBlockSide, &samples[s].depth[inRows]);
+                std::copy_n(&hitId[s][inBlocks], kBlockSide, &samples[s].hitId[inRows]);
+            }
+        });
     }
 
     float farthestOfTile() const {
@@ -107,19 +157,39 @@ struct MeshRays {
             most = hn::Max(most, load(&farthest[first]));
         return hn::GetLane(hn::MaxOfLanes(d, most));
     }
+
+ private:
+    /// Calls visit(index in the blocks, index in the rows of the tile) for the first pixel of each row of each block.
+    template <typename Visit>
+    static void forParts(const Visit& visit) {
+        for (std::size_t part = 0; part < kTilePixels / kBlockSide; ++part) {
+            const std::size_t block = part / kBlockSide;
+            const std::size_t row = block / kBlocksInRow * kBlockSide + part % kBlockSide;
+            visit(kBlockSide * part, row * kTileSize + block % kBlocksInRow * kBlockSide);
+        }
+    }
 };
 
-/// Adds one triangle to one vector of rays of sample s.
+/// The linear functions of a triangle at the samples of pixels: at column and row of a pixel, without the sample's
+/// offset from the pixel's corner, which is in `offsets`.
+struct SampledSetup {
+    std::array<glm::vec2, 4> slopes;  ///< of the three edge functions and of the depth
+    std::array<std::array<float, 4>, 4> offsets;
+
+    SampledSetup(const TriangleSetup& setup, std::span<const glm::vec2> samples) {
+        const std::array<glm::vec3, 4> functions{setup.edges[0], setup.edges[1], setup.edges[2], setup.depth};
+        for (std::size_t f = 0; f < functions.size(); ++f) {
+            slopes[f] = glm::vec2(functions[f]);
+            for (std::size_t s = 0; s < samples.size(); ++s)
+                offsets[s][f] = functions[f].x * samples[s].x + functions[f].y * samples[s].y + functions[f].z;
+        }
+    }
+};
+
+/// The view depth where a ray meets a triangle, and whether it meets it before the eye.
+/// @param linear  the triangle's function of depth at the ray
 template <bool kPerspective>
-HWY_INLINE void addTriangle(const TriangleSetup& setup, std::int32_t id, const MeshRays& rays, std::size_t s,
-                            std::size_t first, TileRays& sample) {
-    const V x = load(&rays.x[s][first]);
-    const V y = load(&rays.y[s][first]);
-    const auto valueOf = [&](glm::vec3 plane) { return splat(plane.x) * x + splat(plane.y) * y + splat(plane.z); };
-    const V least = hn::Min(valueOf(setup.edges[0]), hn::Min(valueOf(setup.edges[1]), valueOf(setup.edges[2])));
-    M isHit = least >= splat(0.0F);
-    if (none(isHit)) return;
-    const V linear = valueOf(setup.depth);
+HWY_INLINE V depthOf(V linear, const TriangleSetup& setup, M& isHit) {
     V depth = linear;
     if constexpr (kPerspective) {
         // On the edge of a triangle that is seen at a grazing angle rounding may make the sum 0 or less: it is clamped.
@@ -127,48 +197,114 @@ HWY_INLINE void addTriangle(const TriangleSetup& setup, std::int32_t id, const M
     } else {
         isHit = hn::And(isHit, linear > splat(0.0F));
     }
-    depth = hn::Min(hn::Max(depth, splat(setup.front)), splat(setup.back));
-    isHit = hn::And(isHit, depth < load(&sample.depth[first]));
-    store(hn::IfThenElse(isHit, depth, load(&sample.depth[first])), &sample.depth[first]);
-    storeInt(hn::IfThenElse(hn::RebindMask(DI(), isHit), splatInt(id), loadInt(&sample.hitId[first])),
-             &sample.hitId[first]);
+    return hn::Min(hn::Max(depth, splat(setup.front)), splat(setup.back));
 }
 
+HWY_INLINE void keepNearer(M isHit, V depth, std::int32_t id, float* depths, std::int32_t* hitIds) {
+    const V old = load(depths);
+    isHit = hn::And(isHit, depth < old);
+    store(hn::IfThenElse(isHit, depth, old), depths);
+    storeInt(hn::IfThenElse(hn::RebindMask(DI(), isHit), splatInt(id), loadInt(hitIds)), hitIds);
+}
+
+/// Adds one triangle to all samples of a vector of pixels.
 template <bool kPerspective>
-void addTriangles(const SolidGeometry& geometry, std::size_t tile, bool isAnywhere, std::span<TileRays> samples) {
+HWY_INLINE void addTriangle(const TriangleSetup& setup, const SampledSetup& sampled, std::int32_t id, std::size_t first,
+                            BlockSamples& samples) {
+    const V column = load(&samples.column[first]);
+    const V row = load(&samples.row[first]);
+    const auto atPixel = [&](std::size_t f) {
+        return splat(sampled.slopes[f].x) * column + splat(sampled.slopes[f].y) * row;
+    };
+    const V edge0 = atPixel(0);
+    const V edge1 = atPixel(1);
+    const V edge2 = atPixel(2);
+    bool isAnyHit = false;
+    for (std::size_t s = 0; s < samples.count; ++s) {
+        const std::array<float, 4>& offset = sampled.offsets[s];
+        const V least = hn::Min(edge0 + splat(offset[0]), hn::Min(edge1 + splat(offset[1]), edge2 + splat(offset[2])));
+        M isHit = least >= splat(0.0F);
+        if (none(isHit)) continue;
+        isAnyHit = true;
+        const V depth = depthOf<kPerspective>(atPixel(3) + splat(offset[3]), setup, isHit);
+        keepNearer(isHit, depth, id, &samples.depth[s][first], &samples.hitId[s][first]);
+    }
+    if (!isAnyHit) return;
+    V most = load(&samples.depth[0][first]);
+    for (std::size_t s = 1; s < samples.count; ++s) most = hn::Max(most, load(&samples.depth[s][first]));
+    store(most, &samples.farthest[first]);
+}
+
+/// Adds one triangle to the pixels of a tile that it touches.
+template <bool kPerspective>
+void addToPixels(const SolidGeometry& geometry, std::uint32_t index, const Rect& touched, glm::vec2 corner,
+                 std::span<const glm::vec2> offsets, BlockSamples& samples) {
     const D d;
-    const auto lanes = static_cast<int>(hn::Lanes(d));
-    const MeshTiles& meshes = *geometry.meshes;
-    const glm::vec2 corner = tileCorner(*geometry.tiles, tile);
-    MeshRays rays(corner, samples);
-    for (const std::uint32_t index : meshes.tiles.itemsOf(tile)) {
-        const TriangleBounds& bounds = meshes.bounds[index];
-        const Rect touched = isAnywhere
-                                 ? Rect{0, 0, kTileSize - 1, kTileSize - 1}
-                                 : withinTile(bounds.pixels, static_cast<int>(corner.x), static_cast<int>(corner.y));
-        if (touched.x1 < touched.x0 || touched.y1 < touched.y0) continue;
-        // The triangles are listed front to back: all later ones are behind what has been hit.
-        if (bounds.front > rays.farthestOfTile()) break;
-        const TriangleSetup setup = triangleSetup(meshes, kPerspective, index, glm::dvec2(corner));
-        const std::int32_t id = kHitTriangle + static_cast<std::int32_t>(index);
-        for (int row = touched.y0; row <= touched.y1; ++row) {
-            for (int column = touched.x0 / lanes * lanes; column <= touched.x1; column += lanes) {
-                const auto first = static_cast<std::size_t>(row * kTileSize + column);
-                if (hn::AllTrue(d, load(&rays.farthest[first]) < splat(bounds.front))) continue;
-                V most = splat(0.0F);
-                for (std::size_t s = 0; s < samples.size(); ++s) {
-                    addTriangle<kPerspective>(setup, id, rays, s, first, samples[s]);
-                    most = hn::Max(most, load(&samples[s].depth[first]));
-                }
-                store(most, &rays.farthest[first]);
-            }
+    const TriangleSetup setup = triangleSetup(geometry, index, corner);
+    const SampledSetup sampled(setup, offsets);
+    const std::int32_t id = kHitTriangle + static_cast<std::int32_t>(index);
+    constexpr std::size_t kBlockPixels = kBlockSide * kBlockSide;
+    for (int down = touched.y0 / kBlockSide; down <= touched.y1 / kBlockSide; ++down) {
+        for (int across = touched.x0 / kBlockSide; across <= touched.x1 / kBlockSide; ++across) {
+            const std::size_t block = static_cast<std::size_t>(down * kBlocksInRow + across) * kBlockPixels;
+            for (std::size_t first = block; first < block + kBlockPixels; first += hn::Lanes(d))
+                if (!hn::AllTrue(d, load(&samples.farthest[first]) < splat(setup.front)))
+                    addTriangle<kPerspective>(setup, sampled, id, first, samples);
         }
     }
 }
 
-void findHits(const SolidGeometry& geometry, std::size_t tile, bool isAnywhere, std::span<TileRays> samples) {
-    geometry.frame.perspective ? addTriangles<true>(geometry, tile, isAnywhere, samples)
-                               : addTriangles<false>(geometry, tile, isAnywhere, samples);
+template <bool kPerspective>
+void addTriangles(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> rays) {
+    const MeshTiles& meshes = *geometry.meshes;
+    const glm::vec2 corner = tileCorner(*geometry.tiles, tile);
+    std::array<glm::vec2, 4> offsets{};
+    for (std::size_t s = 0; s < rays.size(); ++s) offsets[s] = glm::vec2(rays[s].x[0], rays[s].y[0]) - corner;
+    BlockSamples samples(rays);
+    float farthest = samples.farthestOfTile();
+    int added = 0;
+    for (const std::uint32_t index : meshes.tiles.itemsOf(tile)) {
+        const TriangleBounds& bounds = meshes.bounds[index];
+        const Rect touched = withinTile(bounds.pixels, static_cast<int>(corner.x), static_cast<int>(corner.y));
+        if (touched.x1 < touched.x0 || touched.y1 < touched.y0) continue;
+        // The triangles are listed front to back: all later ones are behind what has been hit.
+        if (bounds.front > farthest) break;
+        addToPixels<kPerspective>(geometry, index, touched, corner, std::span(offsets).first(rays.size()), samples);
+        constexpr int kEvery = 16;  // chosen: finding the farthest takes about as long as adding a triangle
+        if (++added % kEvery == 0) farthest = samples.farthestOfTile();
+    }
+    samples.copyTo(rays);
+}
+
+template <bool kPerspective>
+void addTrianglesAnywhere(const SolidGeometry& geometry, std::size_t tile, TileRays& rays) {
+    const D d;
+    const MeshTiles& meshes = *geometry.meshes;
+    const glm::vec2 corner = tileCorner(*geometry.tiles, tile);
+    for (const std::uint32_t index : meshes.tiles.itemsOf(tile)) {
+        const TriangleSetup setup = triangleSetup(geometry, index, corner);
+        const std::int32_t id = kHitTriangle + static_cast<std::int32_t>(index);
+        for (std::size_t first = 0; first < kTilePixels; first += hn::Lanes(d)) {
+            const V x = load(&rays.x[first]) - splat(corner.x);
+            const V y = load(&rays.y[first]) - splat(corner.y);
+            const auto valueOf = [&](glm::vec3 f) { return splat(f.x) * x + splat(f.y) * y + splat(f.z); };
+            M isHit = hn::Min(valueOf(setup.edges[0]), hn::Min(valueOf(setup.edges[1]), valueOf(setup.edges[2]))) >=
+                      splat(0.0F);
+            if (none(isHit)) continue;
+            const V depth = depthOf<kPerspective>(valueOf(setup.depth), setup, isHit);
+            keepNearer(isHit, depth, id, &rays.depth[first], &rays.hitId[first]);
+        }
+    }
+}
+
+void findTileHits(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> samples) {
+    geometry.frame.perspective ? addTriangles<true>(geometry, tile, samples)
+                               : addTriangles<false>(geometry, tile, samples);
+}
+
+void findHitsAnywhere(const SolidGeometry& geometry, std::size_t tile, TileRays& rays) {
+    geometry.frame.perspective ? addTrianglesAnywhere<true>(geometry, tile, rays)
+                               : addTrianglesAnywhere<false>(geometry, tile, rays);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -181,7 +317,8 @@ namespace render {
 
 namespace {
 
-HWY_EXPORT(findHits);
+HWY_EXPORT(findTileHits);
+HWY_EXPORT(findHitsAnywhere);
 
 // Two triangles may belong to one smooth surface if the cosine between their normals is at least this. Chosen: a fold
 // by as much, 18 degrees, cannot be told from a bend within one pixel.
@@ -219,11 +356,11 @@ bool isSmooth(const SolidGeometry& geometry, std::int32_t a, std::int32_t b, flo
 }  // namespace
 
 void findMeshHits(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> samples) {
-    HWY_DYNAMIC_DISPATCH(findHits)(geometry, tile, false, samples);
+    HWY_DYNAMIC_DISPATCH(findTileHits)(geometry, tile, samples);
 }
 
 void findMeshHitsAnywhere(const SolidGeometry& geometry, std::size_t tile, TileRays& rays) {
-    HWY_DYNAMIC_DISPATCH(findHits)(geometry, tile, true, {&rays, 1});
+    HWY_DYNAMIC_DISPATCH(findHitsAnywhere)(geometry, tile, rays);
 }
 
 void mergeSmoothHits(const SolidGeometry& geometry, std::span<TileRays> samples) {

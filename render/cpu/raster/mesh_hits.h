@@ -11,9 +11,10 @@
 namespace render {
 
 // The functions below give a ray a hit that depends on its own position alone, bit for bit, not on the instruction set.
-// No ray passes between two triangles that share an edge.
+// No ray passes between two triangles that share an edge and lie before the eye.
 
-/// Replaces the rays' hits by nearer ones of the triangles of a tile. @pre every ray goes through the tile
+/// Replaces the rays' hits by nearer ones of the triangles of a tile.
+/// @pre the rays of a sample go through the same point of each pixel
 void findMeshHits(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> samples);
 
 /// Replaces the rays' hits by nearer ones of the triangles of a tile, for rays that may pass beside the tile by as much

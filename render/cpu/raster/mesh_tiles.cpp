@@ -17,20 +17,26 @@ namespace {
 
 using glm::dvec3;
 
-constexpr std::size_t kChunk = 2048;  // corners or triangles that one task handles; chosen
+constexpr std::size_t kItemsOfTask = 2048;  // corners or triangles that one task handles; chosen
 
-// How far beside a pixel a triangle may lie and still count as covering it, pixels. Far more than the rounding of
-// double precision.
-constexpr double kSlack = 0.01;
+// How far beside a pixel a triangle may lie and still count as covering it, pixels: far more than the rounding.
+constexpr float kSlack = 0.01F;
 
 /// Calls visit(k) for all k below count, in parallel.
 template <typename Visit>
-void forEach(std::size_t count, const Visit& visit) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kChunk), [&](const auto& range) {
+void forAll(std::size_t count, const Visit& visit) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kItemsOfTask), [&](const auto& range) {
         for (std::size_t k = range.begin(); k < range.end(); ++k) visit(k);
     });
 }
 
+/// @param point  in world axes, relative to the eye
+dvec3 toView(const CameraFrame& frame, glm::vec3 point) {
+    const dvec3 at(point);
+    return {dot(at, dvec3(frame.right)), dot(at, dvec3(frame.up)), dot(at, dvec3(frame.forward))};
+}
+
+/// @param view  in view coordinates
 dvec3 onPicture(const CameraFrame& frame, const dvec3& view) {
     const double w = frame.perspective ? view.z : 1.0;
     return {0.5 * frame.width * (view.x / double(frame.halfWidth) + w),
@@ -67,6 +73,15 @@ Polygon withinPicture(const CameraFrame& frame, const std::array<dvec3, 3>& corn
     return polygon;
 }
 
+/// The part of a rectangle of pixels that lies in the picture.
+Rect clippedRect(const CameraFrame& frame, glm::vec2 low, glm::vec2 high) {
+    const auto columns = static_cast<float>(frame.width);
+    const auto rows = static_cast<float>(frame.height);
+    if (!(low.x < columns && low.y < rows && high.x >= 0.0F && high.y >= 0.0F)) return {};
+    return {static_cast<int>(std::max(low.x, 0.0F)), static_cast<int>(std::max(low.y, 0.0F)),
+            static_cast<int>(std::min(high.x, columns - 1.0F)), static_cast<int>(std::min(high.y, rows - 1.0F))};
+}
+
 /// The pixels that a polygon before the eye may cover.
 Rect pixelsOf(const CameraFrame& frame, const Polygon& polygon) {
     glm::dvec2 low(std::numeric_limits<double>::max());
@@ -77,12 +92,7 @@ Rect pixelsOf(const CameraFrame& frame, const Polygon& polygon) {
         low = min(low, glm::dvec2(point) / point.z);
         high = max(high, glm::dvec2(point) / point.z);
     }
-    low = floor(low - kSlack);
-    high = floor(high + kSlack);
-    if (!(low.x < frame.width && low.y < frame.height && high.x >= 0.0 && high.y >= 0.0)) return {};
-    return {static_cast<int>(std::max(low.x, 0.0)), static_cast<int>(std::max(low.y, 0.0)),
-            static_cast<int>(std::min(high.x, frame.width - 1.0)),
-            static_cast<int>(std::min(high.y, frame.height - 1.0))};
+    return clippedRect(frame, glm::vec2(floor(low - double(kSlack))), glm::vec2(floor(high + double(kSlack))));
 }
 
 /// Whether the eye, or in parallel projection its plane, is far enough from a box that no ray starts inside of it.
@@ -97,9 +107,30 @@ bool isOutside(const CameraFrame& frame, const Bounds<glm::vec3>& box) {
 
 /// Whether a triangle is seen from the side that its corners run around counterclockwise. The rows of a picture run
 /// down and its depth away from the eye, so that the picture's axes have the handedness of the world's.
-/// @param volume  determinant of the corners, of which the triangle has three times the sign of its area
+/// @param volume  twice its signed area on the picture, or the determinant of its corners in homogeneous
+/// coordinates, which has the same sign
 bool isFront(double volume) {
     return volume < 0.0;
+}
+
+/// The pixels that a triangle before the eye may cover; none for one that is turned away from the eye and culled.
+Rect pixelsBeforeEye(const CameraFrame& frame, const std::array<glm::vec3, 3>& corners, bool isCulled) {
+    const glm::vec2 a(corners[0]);
+    const glm::vec2 b(corners[1]);
+    const glm::vec2 c(corners[2]);
+    const float area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    if (area == 0.0F || (isCulled && !isFront(area))) return {};
+    const glm::vec2 low = floor(min(a, min(b, c)) - kSlack);
+    const glm::vec2 high = floor(max(a, max(b, c)) + kSlack);
+    return clippedRect(frame, low, high);
+}
+
+/// The pixels that a triangle with corners on both sides of the eye's plane may cover.
+Rect pixelsOfCut(const CameraFrame& frame, const std::array<dvec3, 3>& corners, bool isCulled) {
+    const double volume = dot(corners[0], cross(corners[1], corners[2]));
+    if (volume == 0.0 || (isCulled && !isFront(volume))) return {};
+    const Polygon polygon = withinPicture(frame, corners);
+    return polygon.count == 0 ? Rect{} : pixelsOf(frame, polygon);
 }
 
 TriangleBounds boundsOf(const CameraFrame& frame, const MeshTiles& to, const DrawnTriangle& triangle, bool isCulled) {
@@ -108,13 +139,17 @@ TriangleBounds boundsOf(const CameraFrame& frame, const MeshTiles& to, const Dra
     bounds.front = std::min({to.depths[a], to.depths[b], to.depths[c]});
     bounds.back = std::max({to.depths[a], to.depths[b], to.depths[c]});
     if (!(bounds.back > 0.0F)) return bounds;
-    const std::array<dvec3, 3> corners{to.corners[a], to.corners[b], to.corners[c]};
-    const double volume = dot(corners[0], cross(corners[1], corners[2]));
-    if (volume == 0.0 || (isCulled && !isFront(volume))) return bounds;
-    const bool isCut = frame.perspective && !(bounds.front > 0.0F);
-    const Polygon polygon = isCut ? withinPicture(frame, corners) : Polygon{{corners[0], corners[1], corners[2]}};
-    if (polygon.count == 0) return bounds;
-    bounds.pixels = pixelsOf(frame, polygon);
+    if (isCut(frame, bounds.front, bounds.back)) {
+        const std::vector<glm::vec3>& positions = to.meshes->positions;
+        bounds.pixels =
+            pixelsOfCut(frame,
+                        {homogeneousOnPicture(frame, positions[a]), homogeneousOnPicture(frame, positions[b]),
+                         homogeneousOnPicture(frame, positions[c])},
+                        isCulled);
+    } else {
+        bounds.pixels = pixelsBeforeEye(frame, {to.corners[a], to.corners[b], to.corners[c]}, isCulled);
+    }
+    if (bounds.pixels.x1 < bounds.pixels.x0) return bounds;
     const std::vector<glm::vec3>& normals = to.meshes->normals;
     const glm::vec3 sum = normals[a] + normals[b] + normals[c];
     const float square = dot(sum, sum);
@@ -144,6 +179,10 @@ CellLists listTriangles(const CameraFrame& frame, const std::vector<TriangleBoun
 
 }  // namespace
 
+glm::dvec3 homogeneousOnPicture(const CameraFrame& frame, glm::vec3 point) {
+    return onPicture(frame, toView(frame, point));
+}
+
 MeshTiles meshTiles(const CameraFrame& frame, const DrawnMeshes& meshes, int margin, MeshTiles old) {
     MeshTiles to = std::move(old);
     to.meshes = meshes.empty() ? nullptr : &meshes;
@@ -151,15 +190,15 @@ MeshTiles meshTiles(const CameraFrame& frame, const DrawnMeshes& meshes, int mar
     to.depths.resize(meshes.positions.size());
     to.bounds.resize(meshes.triangles.size());
     if (meshes.empty()) return to;
-    forEach(meshes.positions.size(), [&](std::size_t k) {
-        const dvec3 at(meshes.positions[k]);
-        const dvec3 view{dot(at, dvec3(frame.right)), dot(at, dvec3(frame.up)), dot(at, dvec3(frame.forward))};
-        to.corners[k] = onPicture(frame, view);
+    forAll(meshes.positions.size(), [&](std::size_t k) {
+        const dvec3 view = toView(frame, meshes.positions[k]);
+        const dvec3 at = onPicture(frame, view);
+        to.corners[k] = glm::vec3(at.x / at.z, at.y / at.z, frame.perspective ? 1.0 / at.z : view.z);
         to.depths[k] = static_cast<float>(view.z);
     });
     std::vector<char> isCulled;
     for (const Bounds<glm::vec3>& box : meshes.bounds) isCulled.push_back(isOutside(frame, box) ? 1 : 0);
-    forEach(meshes.triangles.size(), [&](std::size_t k) {
+    forAll(meshes.triangles.size(), [&](std::size_t k) {
         const DrawnTriangle& triangle = meshes.triangles[k];
         to.bounds[k] = boundsOf(frame, to, triangle, isCulled[triangle.mesh] != 0);
     });
