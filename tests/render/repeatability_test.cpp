@@ -5,7 +5,7 @@
 
 #include <tbb/global_control.h>
 
-#include "tests/render/pictures.h"
+#include "tests/render/solid_meshes.h"
 
 using namespace pictures;
 using render::Quality;
@@ -28,7 +28,10 @@ std::vector<render::View> views() {
     full.field.skin = render::Skin::smooth;
     render::View fullSpheres = full;
     fullSpheres.style = render::Style::spheres;
-    return {spheres, balls, full, fullSpheres};
+    render::View meshes = cloudWithMeshes(100);
+    meshes.light.shadows = true;
+    meshes.light.softness = 0.4F;
+    return {spheres, balls, full, fullSpheres, meshes};
 }
 
 }  // namespace
