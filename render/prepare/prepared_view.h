@@ -11,7 +11,7 @@
 #include "render/picture/view.h"
 #include "render/prepare/ambient_occlusion.h"
 #include "render/prepare/depth_map_grid.h"
-#include "render/prepare/drawn_meshes.h"
+#include "render/picture/drawn_meshes.h"
 #include "render/prepare/drawn_spheres.h"
 #include "render/prepare/light_space.h"
 #include "render/prepare/metaball_scene.h"

@@ -17,7 +17,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "render/prepare/drawn_meshes.h"
+#include "render/picture/drawn_meshes.h"
 #include "render/prepare/tiles.h"
 
 namespace render {

@@ -5,10 +5,10 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "render/picture/bounds.h"
 #include "render/picture/camera_frame.h"
 
 namespace render {
@@ -33,19 +33,6 @@ constexpr int tilesAlong(int pixels) {
 
 /// A vector of three components for each pixel of a tile, component by component.
 using TileVec3 = std::array<std::array<float, kTilePixels>, 3>;
-
-/// An axis-aligned rectangle or box, empty at first.
-template <typename Vector>
-struct Bounds {
-    Vector low{std::numeric_limits<float>::max()};
-    Vector high{std::numeric_limits<float>::lowest()};
-
-    void add(Vector first, Vector last) {
-        low = min(low, first);
-        high = max(high, last);
-    }
-    void add(Vector point) { add(point, point); }
-};
 
 /// Index of a cell of a 3D grid whose cells are stored with x running fastest.
 inline std::size_t cellIndex(glm::ivec3 gridSize, int x, int y, int z) {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "render/cpu/lighting/depth_map.h"
-#include "render/prepare/drawn_meshes.h"
+#include "render/picture/drawn_meshes.h"
 #include "render/prepare/light_space.h"
 
 namespace render {

@@ -14,7 +14,7 @@
 #include "render/cpu/raster/primary_hits.h"
 #include "render/picture/camera_frame.h"
 #include "render/picture/view.h"
-#include "render/prepare/drawn_meshes.h"
+#include "render/picture/drawn_meshes.h"
 #include "render/prepare/drawn_spheres.h"
 #include "render/prepare/tiles.h"
 

@@ -8,7 +8,7 @@
 #include <glm/glm.hpp>
 
 #include "render/picture/camera_frame.h"
-#include "render/prepare/drawn_meshes.h"
+#include "render/picture/drawn_meshes.h"
 #include "render/prepare/tiles.h"
 
 namespace render {

@@ -8,8 +8,8 @@
 
 #include <glm/glm.hpp>
 
+#include "render/picture/bounds.h"
 #include "render/picture/view.h"
-#include "render/prepare/tiles.h"
 
 namespace render {
 

@@ -1,5 +1,5 @@
 // Corners are moved in parallel; each depends on itself alone.
-#include "render/prepare/drawn_meshes.h"
+#include "render/picture/drawn_meshes.h"
 
 #include <utility>
 
