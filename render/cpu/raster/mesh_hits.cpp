@@ -23,23 +23,33 @@ namespace HWY_NAMESPACE {
 constexpr int kBlockSide = 4;
 constexpr int kBlocksInRow = kTileSize / kBlockSide;
 
+/// The columns and rows of a tile's pixels, one block after another.
+struct BlockPlaces {
+    alignas(64) std::array<float, kTilePixels> column{}, row{};
+
+    constexpr BlockPlaces() {
+        for (std::size_t k = 0; k < kTilePixels; ++k) {
+            const std::size_t block = k / (kBlockSide * kBlockSide);
+            column[k] = static_cast<float>(block % kBlocksInRow * kBlockSide + k % kBlockSide);
+            row[k] = static_cast<float>(block / kBlocksInRow * kBlockSide + k / kBlockSide % kBlockSide);
+        }
+    }
+};
+
+constexpr BlockPlaces kBlockPlaces;
+
 /// The samples of a tile, one block of pixels after another.
 struct BlockSamples {
     alignas(64) std::array<std::array<float, kTilePixels>, 4> depth;
     alignas(64) std::array<std::array<std::int32_t, kTilePixels>, 4> hitId;
-    alignas(64) std::array<float, kTilePixels> column, row;  ///< of each pixel
-    alignas(64) std::array<float, kTilePixels> farthest;     ///< the greatest depth of a pixel's samples so far
-    std::size_t count;                                       ///< number of samples
+    alignas(64) std::array<float, kTilePixels> farthest;  ///< the greatest depth of a pixel's samples so far
+    std::size_t count;                                    ///< number of samples
 
     explicit BlockSamples(std::span<const TileRays> samples) : count(samples.size()) {
         forParts([&](std::size_t inBlocks, std::size_t inRows) {
             for (std::size_t s = 0; s < count; ++s) {
                 std::copy_n(&samples[s].depth[inRows], kBlockSide, &depth[s][inBlocks]);
                 std::copy_n(&samples[s].hitId[inRows], kBlockSide, &hitId[s][inBlocks]);
-            }
-            for (std::size_t k = 0; k < kBlockSide; ++k) {
-                column[inBlocks + k] = static_cast<float>((inRows + k) % kTileSize);
-                row[inBlocks + k] = static_cast<float>(inRows / kTileSize);
             }
         });
         for (std::size_t k = 0; k < kTilePixels; ++k) {
@@ -118,8 +128,8 @@ HWY_INLINE void keepNearer(M isHit, V depth, std::int32_t id, float* depths, std
 template <bool kPerspective>
 HWY_INLINE void addTriangle(const TriangleSetup& setup, const SampledSetup& sampled, std::int32_t id, std::size_t first,
                             BlockSamples& samples) {
-    const V column = load(&samples.column[first]);
-    const V row = load(&samples.row[first]);
+    const V column = load(&kBlockPlaces.column[first]);
+    const V row = load(&kBlockPlaces.row[first]);
     const auto atPixel = [&](std::size_t f) {
         return splat(sampled.slopes[f].x) * column + splat(sampled.slopes[f].y) * row;
     };
@@ -271,7 +281,11 @@ void findMeshHitsAnywhere(const SolidGeometry& geometry, std::size_t tile, TileR
 }
 
 void mergeSmoothHits(const SolidGeometry& geometry, std::span<TileRays> samples) {
+    std::array<std::int32_t, kTilePixels> differences{};
+    for (std::size_t s = 1; s < samples.size(); ++s)
+        for (std::size_t k = 0; k < kTilePixels; ++k) differences[k] |= samples[s].hitId[k] ^ samples[0].hitId[k];
     for (std::size_t k = 0; k < kTilePixels; ++k) {
+        if (differences[k] == 0) continue;
         for (std::size_t s = 1; s < samples.size(); ++s) {
             const std::int32_t id = samples[s].hitId[k];
             if (id == samples[0].hitId[k] || !isTriangle(id)) continue;
