@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include "engine/core/bounding_box.h"
 #include "engine/core/parallel.h"
@@ -16,9 +17,18 @@ namespace {
 /// outside any picture that shows the scene.
 constexpr double kFarDiagonals = 4.0;
 
-/// The box around everything that the scene begins with, and the points of planes nearest to it; none if it begins with
-/// nothing.
-std::optional<BoundingBox> placeOf(const Setup& setup) {
+/// The times at which the sites of an emitter are looked at, s: its start, its keys, and now.
+std::vector<double> momentsOf(const Emitter& emitter, double now) {
+    std::vector<double> moments = {emitter.start};
+    if (emitter.motion.isIdentity()) return moments;
+    for (const PoseKey& key : emitter.motion.keys) moments.push_back(key.time);
+    moments.push_back(now);
+    return moments;
+}
+
+/// The box around everything that the scene begins with, with the way that emitters in motion have come until now (s),
+/// and the points of planes nearest to it; none if it begins with nothing.
+std::optional<BoundingBox> placeOf(const Setup& setup, double now) {
     std::optional<BoundingBox> place;
     const auto include = [&](const BoundingBox& box) {
         if (!place) place = box;
@@ -29,10 +39,12 @@ std::optional<BoundingBox> placeOf(const Setup& setup) {
         include({setup.initial.position[p] - half, setup.initial.position[p] + half});
     }
     for (const Emitter& emitter : setup.emitters)
-        for (const Vec3& site : emitter.sites) {
-            const Vec3 half = Vec3::Constant(setup.materials[emitter.material].radius);
-            include({site - half, site + half});
-        }
+        for (const double moment : momentsOf(emitter, now))
+            for (const Vec3& site : emitter.sites) {
+                const Vec3 half = Vec3::Constant(setup.materials[emitter.material].radius);
+                const Vec3 position = launchAt(emitter, moment, {site, Vec3::Zero()}).position;
+                include({position - half, position + half});
+            }
     for (const Obstacle& obstacle : setup.obstacles.shapes)
         if (const auto box = boundsOf(obstacle)) include(*box);
     if (!place) return place;
@@ -51,7 +63,7 @@ std::optional<BoundingBox> placeOf(const Setup& setup) {
 std::uint64_t strayCount(const Simulation& simulation) {
     const Particles& particles = simulation.particles;
     const Setup& setup = simulation.setup;
-    const std::optional<BoundingBox> place = placeOf(setup);
+    const std::optional<BoundingBox> place = placeOf(setup, simulation.time);
     if (!place) return 0;
     const double far = kFarDiagonals * (place->high - place->low).norm();
     return sumOver<std::uint64_t>(particles.count(), [&](std::size_t p) -> std::uint64_t {

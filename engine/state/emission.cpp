@@ -108,9 +108,11 @@ void drawEmission(const Setup& setup, const Emission& emission, double time, dou
     const Emitter& emitter = setup.emitters[emission.emitter];
     const Material& material = setup.materials[emitter.material];
     Draws draws(drawBits(setup, emission, Purpose::others));
-    const Vec3 velocity = velocityOf(emitter, draws);
+    Launch launch;
+    launch.velocity = velocityOf(emitter, draws);
+    launch.position = siteOf(setup, emission) + emitter.jitter * material.radius * jitterOf(setup, emission);
+    const auto [site, velocity] = launchAt(emitter, time - late, launch);
     NewParticle particle;
-    const Vec3 site = siteOf(setup, emission) + emitter.jitter * material.radius * jitterOf(setup, emission);
     const Vec3 flight = late * velocity + 0.5 * late * late * setup.gravity;
     particle.velocity = velocity + late * setup.gravity;
     particle.radius = material.radius;

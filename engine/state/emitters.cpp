@@ -44,6 +44,14 @@ bool isBeforeEnd(const Emitter& emitter, double due) {
     return due < emitter.until - kSameMoment;
 }
 
+/// An upper bound on the speed of an emitter's sites, m/s.
+double carriedSpeed(const Emitter& emitter) {
+    if (emitter.motion.isAtRest()) return 0.0;
+    double extentSq = 0.0;
+    for (const Vec3& site : emitter.sites) extentSq = std::max(extentSq, squaredLength(site - emitter.motion.pivot));
+    return fastestBetween(emitter.motion, 0.0, std::numeric_limits<double>::infinity(), std::sqrt(extentSq));
+}
+
 /// Number of emissions of a schedule that take place up to a time (s) if none is delayed.
 std::uint64_t askedCount(const Emitter& emitter, double first, double time) {
     const auto isAsked = [&](double k) {
@@ -104,6 +112,13 @@ double nextEmission(const Emitter& emitter, const EmitterState& state) {
     return next;
 }
 
+Launch launchAt(const Emitter& emitter, double time, const Launch& atRest) {
+    if (emitter.motion.isIdentity()) return atRest;
+    const Pose pose = poseAt(emitter.motion, time);
+    const Vec3 position = pose.toScene(atRest.position);
+    return {position, pose.rotation * atRest.velocity + pose.velocityAt(position)};
+}
+
 std::uint64_t askedCount(const Emitter& emitter, double time) {
     std::uint64_t emissions = 0;
     for (std::size_t s = 0; s < scheduleCount(emitter); ++s)
@@ -148,7 +163,11 @@ void completeTimes(Emitter& emitter, const Vec3& gravity, double radius) {
     const double clearing = clearingTime(emitter, gravity, radius);
     if (std::isfinite(clearing)) emitter.leastDelay = clearing / kTriesWhileClearing;
     if (emitter.pick != Pick::staggered) return;
-    const double groups = std::ceil(emitter.interval / timeToMove(emitter.velocity, gravity, kGroupedFlight * radius));
+    const double carried = carriedSpeed(emitter);
+    const double speed = std::sqrt(squaredLength(emitter.velocity));
+    double flight = timeToMove(emitter.velocity, gravity, kGroupedFlight * radius);
+    if (carried > 0.0) flight = std::min(flight, kGroupedFlight * radius / (speed + carried));
+    const double groups = std::ceil(emitter.interval / flight);
     if (groups < static_cast<double>(emitter.sites.size()) || groups == 1.0)
         emitter.grouping = emitter.interval / std::max(1.0, groups);
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/core/vec3.h"
+#include "engine/obstacles/motion.h"
 
 namespace engine {
 
@@ -25,8 +26,10 @@ enum class Pick {
 };
 
 struct Emitter {
-    std::vector<Vec3> sites;                                          ///< where particles are emitted, m
-    Vec3 velocity = Vec3::Zero();                                     ///< mean velocity of emitted particles, m/s
+    std::vector<Vec3> sites;       ///< where particles are emitted, m
+    Vec3 velocity = Vec3::Zero();  ///< mean velocity of emitted particles, m/s
+    /// How the emitter itself moves, from where its sites are given. Particles get the velocity of their site, too.
+    Motion motion;
     double interval = 0.1;                                            ///< time between two emissions of a schedule, s
     double start = 0.0;                                               ///< time of the first emission, s
     double until = std::numeric_limits<double>::infinity();           ///< no emission is due at or after this time, s
@@ -81,6 +84,16 @@ double retryDelay(const Emitter& emitter);
 
 /// Time at which the next emission of an emitter takes place or is tried again, s; infinity if there will be none.
 double nextEmission(const Emitter& emitter, const EmitterState& state);
+
+/// Where an emission takes place, and how fast its particles leave.
+struct Launch {
+    Vec3 position = Vec3::Zero();  ///< m
+    Vec3 velocity = Vec3::Zero();  ///< m/s
+};
+
+/// Where an emitter in motion emits what it would emit at this place with this velocity if it were at rest.
+/// @param time  of the emission, s
+Launch launchAt(const Emitter& emitter, double time, const Launch& atRest);
 
 /// Number of particles that an emitter is to have emitted up to a time (s) if none has to wait for room.
 std::uint64_t askedCount(const Emitter& emitter, double time);
