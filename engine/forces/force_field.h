@@ -18,11 +18,12 @@ struct ForceField {
     std::vector<Material> materials;
     Vec3 gravity = Vec3::Zero();  ///< m/s^2
     Obstacles obstacles;
+    std::vector<Field> fields = {};  ///< they act between the steps; only their energy is asked for here
 };
 
 /// The part of a setup that acts on particles.
 inline ForceField forceFieldOf(const Setup& setup) {
-    return {setup.materials, setup.gravity, setup.obstacles};
+    return {setup.materials, setup.gravity, setup.obstacles, setup.fields};
 }
 
 /// The terms of the force law that the pairs of a set of particles need. The kernel that sums their forces is compiled

@@ -14,14 +14,15 @@ namespace engine {
 Energy energy(ForceEvaluator& evaluator, const Particles& particles, double time, const Ranks& ranks) {
     const ForceField& field = evaluator.forceField();
     const double pairs = evaluator.pairEnergyGrid(particles);
-    const auto [kinetic, contacts, gravity] = exactSums<3>(ranks, particles.count(), [&](std::size_t p) {
+    const auto [kinetic, contacts, gravity, fields] = exactSums<4>(ranks, particles.count(), [&](std::size_t p) {
         const Vec3& x = particles.position[p];
         const Vec3& v = particles.velocity[p];
         return std::array{0.5 * particles.mass[p] * squaredLength(v),
                           sumContacts(field.obstacles, probeOf(field.materials, particles, p, v, time)).energy,
-                          -particles.mass[p] * dot(field.gravity, x)};
+                          -particles.mass[p] * dot(field.gravity, x),
+                          particles.mass[p] * fieldPotential(field.fields, x)};
     });
-    return {.kinetic = kinetic, .pairs = pairs, .contacts = contacts, .gravity = gravity};
+    return {.kinetic = kinetic, .pairs = pairs, .contacts = contacts, .gravity = gravity, .fields = fields};
 }
 
 Energy energy(Simulation& simulation) {

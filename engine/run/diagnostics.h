@@ -15,8 +15,9 @@ struct Energy {
     double pairs = 0.0;     ///< sum of the pair energies U(D), J
     double contacts = 0.0;  ///< energy at obstacles, J
     double gravity = 0.0;   ///< potential energy, the sum of -m g.x, J
+    double fields = 0.0;    ///< potential energy in the conservative fields, J
 
-    double total() const { return kinetic + pairs + contacts + gravity; }
+    double total() const { return kinetic + pairs + contacts + gravity + fields; }
 };
 
 /// Energy of a set of particles under the force law of an evaluator.

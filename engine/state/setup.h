@@ -11,6 +11,7 @@
 #include "engine/force_law/material.h"
 #include "engine/obstacles/obstacles.h"
 #include "engine/state/emitters.h"
+#include "engine/state/fields.h"
 #include "engine/state/particles.h"
 
 namespace engine {
@@ -47,6 +48,7 @@ struct Setup {
     std::vector<Material> materials = {Material{}};
     Vec3 gravity = Vec3(0.0, -9.8, 0.0);  ///< m/s^2
     double drag = 0.0;                    ///< drag coefficient k, 1/s: free motion decays like exp(-k t)
+    std::vector<Field> fields;
     Obstacles obstacles;
     std::optional<BoundingBox> world;  ///< bounds of the world; particles outside are removed
     std::vector<Emitter> emitters;

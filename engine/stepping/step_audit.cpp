@@ -76,8 +76,10 @@ bool movedTooFar(const Simulation& simulation, const SavedState& saved) {
 double allowanceFor(const Simulation& simulation, const SavedState& saved) {
     double allowance = saved.allowance;
     const FarGroups& groups = simulation.cache->evaluator.groups();
-    // Where groups have met, forces between them have changed their common motion.
-    if (!groups.exist() || !haveStayedApart(simulation, saved.position)) return allowance;
+    // Where groups have met, forces between them have changed their common motion. What fields add to it is in the
+    // work.
+    if (!groups.exist() || !simulation.setup.fields.empty() || !haveStayedApart(simulation, saved.position))
+        return allowance;
     // Particles that were emitted since the groups were found act on group 0, but are not in its energy.
     const bool hasEmitted = !holdsOnAll(*simulation.ranks, simulation.particles.count() <= groups.groupOf.size());
     const std::vector<bool> areFree = groupsInFreeFall(simulation, saved.position);

@@ -8,6 +8,7 @@
 #include "engine/state/probe.h"
 #include "engine/state/state_checks.h"
 #include "engine/stepping/drift.h"
+#include "engine/stepping/field_kicks.h"
 #include "engine/stepping/kick_drift.h"
 #include "engine/stepping/obstacle_loads.h"
 #include "engine/stepping/population.h"
@@ -80,7 +81,9 @@ void advanceInEqualSteps(Simulation& simulation, double time) {
         simulation.time = from + step * h;
         if (simulation.beforeStep) simulation.beforeStep(simulation);
         emitDue(simulation);
+        kickBefore(simulation, h);
         const bool areAllValid = symplecticEulerStep(simulation, h);
+        if (areAllValid) kickAfter(simulation, h);
         record(simulation.steps, h, StepLimit::fixed, simulation.stepper);
         addUpLoads(simulation);
         acceptLoads(simulation);

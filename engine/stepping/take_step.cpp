@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "engine/stepping/field_kicks.h"
 #include "engine/stepping/implicit_step.h"
 #include "engine/stepping/symplectic_euler.h"
 #include "engine/stepping/velocity_verlet.h"
@@ -29,9 +30,8 @@ constexpr std::array<NameAndOrder, kSteppers.size()> kNamesAndOrders = {{
 constexpr std::array<std::string_view, kStepLimits> kLimitNames = {"given step", "wanted error", "displacement limit",
                                                                    "energy audit", "frame"};
 
-}  // namespace
-
-void takeStep(Simulation& simulation, double h) {
+/// A step without the fields.
+void takeInnerStep(Simulation& simulation, double h) {
     switch (simulation.stepper) {
         case StepperKind::symplecticEuler:
             symplecticEulerStep(simulation, h);
@@ -47,6 +47,14 @@ void takeStep(Simulation& simulation, double h) {
         case StepperKind::automatic:
             break;  // the automatic stepper chooses one of the others for each step
     }
+}
+
+}  // namespace
+
+void takeStep(Simulation& simulation, double h) {
+    kickBefore(simulation, h);
+    takeInnerStep(simulation, h);
+    kickAfter(simulation, h);
 }
 
 std::string_view nameOf(StepperKind stepper) {
