@@ -224,7 +224,9 @@ std::vector<engine::Emitter> buildEmitters(std::vector<Section>& sections, const
         std::vector<Vec3> sites = sitesOf(section, context);
         checkWithinWorld(section, section.has("positions") ? "positions" : "position", sites, context);
         if (!section.isValid()) continue;
+        const Vec3 pivot = section.has("positions") ? sites.front() : section.vector("position");
         engine::Emitter emitter = emitterFrom(section, std::move(sites), *material, radius);
+        emitter.motion = motionFrom(section, "travel", pivot, context);
         completeSchedule(section, emitter, materials, context);
         if (!section.isValid()) continue;
         checkEmissionCount(section, context);

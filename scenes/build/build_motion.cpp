@@ -1,44 +1,42 @@
-#include "scenes/build/build_motion.h"
-
+// Motions of what a scene moves: a constant velocity and a spin, or a path of keys.
 #include <numbers>
+
+#include "scenes/build/builders.h"
 
 namespace scenes {
 namespace {
 
 using engine::Vec3;
 
-constexpr double kDegree = std::numbers::pi / 180.0;  // rad
-constexpr double kTurn = 2.0 * std::numbers::pi;      // rad
+constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
+constexpr double kRadiansPerTurn = 2.0 * std::numbers::pi;
 
-/// A path excludes what describes a motion without one.
-void checkPath(Section& section, BuildContext& context) {
-    if (section.list("key").empty()) return;
-    for (const char* name : {"velocity", "spin"})
-        if (section.isGiven(name))
-            report(section, name, context,
-                   "{} and a path exclude each other; give either, or keys of the path that do the same", name);
+/// The keys of a path; what the first of them leave out is as it would be at rest.
+std::vector<engine::PoseKey> pathFrom(const std::vector<Section>& keys, const Vec3& pivot, const Vec3& angles) {
+    std::vector<engine::PoseKey> path;
+    for (const Section& key : keys)
+        path.push_back({.time = key.number("time"),
+                        .position = key.has("position") ? key.vector("position") : pivot,
+                        .angles = key.has("rotation") ? Vec3(kRadiansPerDegree * key.vector("rotation")) : angles});
+    return path;
 }
 
 }  // namespace
 
-engine::Motion motionFrom(Section& section, const Vec3& middle, BuildContext& context) {
-    section.derive("pivot", TypedValue::ofVector(middle));
-    checkPath(section, context);
-    engine::Motion motion;
-    motion.pivot = section.vector("pivot");
-    motion.angles = kDegree * section.vector("rotation");
-    motion.velocity = section.vector("velocity");
-    motion.spin = kTurn * section.vector("spin");
-    if (section.has("until")) motion.until = section.number("until");
-    for (Section& key : section.list("key")) {
-        const bool isFirst = motion.keys.empty();
-        // Each key takes what it leaves out from the one before, and the first from the obstacle.
-        key.derive("position", TypedValue::ofVector(isFirst ? motion.pivot : motion.keys.back().position));
-        key.derive("rotation", TypedValue::ofVector(isFirst ? section.vector("rotation")
-                                                            : Vec3(motion.keys.back().angles / kDegree)));
-        motion.keys.push_back({key.number("time"), key.vector("position"), kDegree * key.vector("rotation")});
-    }
-    section.derive("record", TypedValue::ofBoolean(!motion.isAtRest()));
+engine::Motion motionFrom(Section& section, std::string_view velocity, const Vec3& pivot, BuildContext& context) {
+    engine::Motion motion{.pivot = pivot};
+    if (section.has("rotation")) motion.angles = kRadiansPerDegree * section.vector("rotation");
+    if (section.has(velocity)) motion.velocity = section.vector(velocity);
+    if (section.has("spin")) motion.spin = kRadiansPerTurn * section.vector("spin");
+    const std::vector<Section>& keys = std::as_const(section).list("key");
+    if (keys.empty()) return motion;
+    for (const std::string_view name : {velocity, std::string_view("spin")})
+        if (section.isGiven(name))
+            report(section, name, context, "{} and [[{}.key]] exclude each other, give one", name,
+                   section.table().name);
+    for (const Section& key : keys)
+        if (!key.isValid() || !key.has("time")) section.markInvalid();
+    if (section.isValid()) motion.keys = pathFrom(keys, pivot, motion.angles);
     return motion;
 }
 

@@ -3,7 +3,6 @@
 #include <limits>
 #include <memory>
 
-#include "scenes/build/build_motion.h"
 #include "scenes/build/build_shapes.h"
 #include "scenes/build/builders.h"
 #include "scenes/model/to_float.h"
@@ -177,7 +176,10 @@ void checkShape(Section& section, BuildContext& context) {
 void buildObstacle(Section& section, double voxel, const Section& look, Scene& scene, BuildContext& context) {
     engine::Obstacles& obstacles = scene.setup.obstacles;
     const BuiltShape built = shapeFrom(section, voxel, context);
-    const engine::Motion motion = motionFrom(section, built.middle, context);
+    section.derive("pivot", TypedValue::ofVector(built.middle));
+    engine::Motion motion = motionFrom(section, "velocity", section.vector("pivot"), context);
+    if (section.has("until")) motion.until = section.number("until");
+    section.derive("record", TypedValue::ofBoolean(!motion.isAtRest()));
     if (!section.isValid()) return;
     const std::size_t index = obstacles.shapes.size();
     obstacles.shapes.push_back(built.shape);

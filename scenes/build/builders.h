@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/obstacles/motion.h"
 #include "scenes/build/read_scene.h"
 #include "scenes/schema/read_sections.h"
 #include "scenes/shapes/mesh.h"
@@ -64,6 +65,8 @@ std::uint32_t materialAtRadius(Materials& materials, std::uint32_t index, double
 void buildBodies(std::vector<Section>& sections, Materials& materials, Scene& scene, BuildContext& context);
 std::vector<engine::Emitter> buildEmitters(std::vector<Section>& sections, const Materials& materials,
                                            BuildContext& context);
+
+std::vector<engine::Field> buildFields(std::vector<Section>& sections, BuildContext& context);
 
 CameraPath buildCamera(std::vector<Section>& sections, BuildContext& context);
 /// @param camera  gives the ground's default distance of fading a scale
@@ -117,6 +120,13 @@ void checkCorners(Section& section, Flatness flatness, BuildContext& context);
 /// Index of the material that a body or emitter names, 0 if it names none; nothing, with the problem recorded, if there
 /// is no material of that name.
 std::optional<std::uint32_t> materialOf(Section& section, const Materials& materials, BuildContext& context);
+
+/// How an object moves: with the constant velocity and the spin of its table, or along the path of the tables "key"
+/// within it. Records a problem if both are given. In build_motion.cpp.
+/// @param velocity  name of the key that gives the velocity of the object itself
+/// @param pivot     the point of the object that the keys place, about which it turns, m
+engine::Motion motionFrom(Section& section, std::string_view velocity, const engine::Vec3& pivot,
+                          BuildContext& context);
 
 /// The vector scaled to length 1; nothing for the zero vector.
 std::optional<engine::Vec3> unitVector(const engine::Vec3& vector);

@@ -61,7 +61,9 @@ void checkWorld(const Section& section, const engine::Setup& setup, BuildContext
         if (!isInside(position, "a body's particle")) return;
     for (const engine::Emitter& emitter : setup.emitters)
         for (const engine::Vec3& site : emitter.sites)
-            if (!isInside(site, "an emitter's point of emission")) return;
+            if (!isInside(engine::launchAt(emitter, emitter.start, {site, engine::Vec3::Zero()}).position,
+                          "an emitter's point of emission"))
+                return;
 }
 
 /// Checks that the times of the strip increase and do not exceed the duration, and returns them.
@@ -176,6 +178,7 @@ void build(Sections& sections, BuildContext& context, Scene& scene) {
     scene.setup.world = buildWorld(sections.world, context);
     buildBodies(sections.bodies, materials, scene, context);
     scene.setup.emitters = buildEmitters(sections.emitters, materials, context);
+    scene.setup.fields = buildFields(sections.fields, context);
     scene.camera = buildCamera(sections.cameras, context);
     scene.look = buildLook(sections.look, scene.camera, context);
     buildObstacles(sections.obstacles, sections.physics, sections.look, scene, context);

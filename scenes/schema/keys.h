@@ -54,6 +54,7 @@ std::vector<Key> emitterKeys();
 std::vector<Key> emitterPathKeys();
 std::vector<Key> obstacleKeys();
 std::vector<Key> obstaclePathKeys();
+std::vector<Key> fieldKeys();
 std::vector<Key> cameraKeys();
 std::vector<Key> lookKeys();
 std::vector<Key> overlayKeys();

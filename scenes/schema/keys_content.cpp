@@ -32,6 +32,9 @@ std::vector<Key> pathKeys(std::string_view positionHelp, std::string_view rotati
     };
 }
 
+/// Turns a second. The sines of an hour's turns have all their bits.
+constexpr Range kSpins{.low = -40.0, .high = 40.0};
+
 }  // namespace
 
 std::vector<Key> bodyKeys() {
@@ -144,6 +147,11 @@ std::vector<Key> emitterKeys() {
             .within(kWithinWorld)
             .onlyFor({"point"}),
         velocity("velocity", "velocity of emitted particles").defaultsTo("[0, 0, 0]"),
+        velocity("travel", "velocity of the emitter itself, which its particles get, too").defaultsTo("[0, 0, 0]"),
+        key("spin", Type::vec3, "turns/s",
+            "turning of the emitter about its position, or the first of its positions: the axis, times turns a second")
+            .defaultsTo("[0, 0, 0]")
+            .within(kSpins),
         key("spread", Type::number, "degrees", "largest angle of a particle's velocity to `velocity`, random")
             .defaultsTo("0")
             .within({0.0, 90.0}),

@@ -298,7 +298,7 @@ std::string missingText(const Section& section, const Key& key) {
 std::vector<const Section*> Sections::all() const {
     std::vector<const Section*> list = {&top, &physics, &world};
     const auto add = [&](const Section& section) { list.push_back(&section); };
-    for (const std::vector<Section>* sections : {&materials, &bodies, &emitters, &obstacles, &cameras})
+    for (const std::vector<Section>* sections : {&materials, &bodies, &emitters, &obstacles, &fields, &cameras})
         for (const Section& section : *sections) section.visitAll(add);
     for (const Section* section : {&look, &overlay, &still}) list.push_back(section);
     if (study) list.push_back(&*study);
@@ -319,6 +319,7 @@ Sections readSections(const Document& document, ProblemList& problems) {
         .bodies = readList(reader, "body"),
         .emitters = readList(reader, "emitter"),
         .obstacles = readList(reader, "obstacle"),
+        .fields = readList(reader, "field"),
         .cameras = readList(reader, "camera"),
         .study = {},
     };

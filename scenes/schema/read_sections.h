@@ -22,6 +22,7 @@ struct Sections {
     std::vector<Section> bodies;
     std::vector<Section> emitters;
     std::vector<Section> obstacles;
+    std::vector<Section> fields;
     std::vector<Section> cameras;  ///< at least one
     std::optional<Section> study;  ///< only if it is written
     bool mayBeIncomplete = false;  ///< a table could not be read, and seemingly missing keys may be in it

@@ -86,6 +86,12 @@ const std::vector<TableInfo>& tables() {
          .allowsList = true,
          .inheritsPrevious = true,
          .increasing = "time"},
+        {.name = "field",
+         .subject = "a field",
+         .help = "what acts on particles at a distance: a push, an attraction, a wind",
+         .allowsSingle = false,
+         .allowsList = true,
+         .discriminator = "kind"},
         {.name = "camera",
          .subject = "a camera on a path",
          .help = "the point of view; [[camera]] for a path, where each inherits from the one before what it leaves out",
@@ -134,6 +140,7 @@ const std::vector<Key>& schema() {
         add("emitter.key", emitterPathKeys());
         add("obstacle", obstacleKeys());
         add("obstacle.key", obstaclePathKeys());
+        add("field", fieldKeys());
         add("camera", cameraKeys());
         add("look", lookKeys());
         add("overlay", overlayKeys());

@@ -86,7 +86,9 @@ bool showsStart(const Sight& sight, const Scene& scene) {
         if (sight.mayShow(particles.position[p], particles.radius[p])) return true;
     return std::ranges::any_of(scene.setup.emitters, [&](const engine::Emitter& emitter) {
         const double radius = scene.setup.materials[emitter.material].radius;
-        return std::ranges::any_of(emitter.sites, [&](const Vec3& site) { return sight.mayShow(site, radius); });
+        return std::ranges::any_of(emitter.sites, [&](const Vec3& site) {
+            return sight.mayShow(engine::launchAt(emitter, emitter.start, {site, Vec3::Zero()}).position, radius);
+        });
     });
 }
 
@@ -97,6 +99,15 @@ struct Flight {
     double radius = 0.1;           ///< m
 };
 
+/// Times at which flights from an emitter are followed, s: several, if it is in motion.
+std::vector<double> momentsOf(const engine::Emitter& emitter, double duration) {
+    if (emitter.motion.isAtRest()) return {emitter.start};
+    std::vector<double> moments;
+    const double end = std::min(duration, emitter.until);
+    for (int k = 0; k < kMoments; ++k) moments.push_back(emitter.start + (end - emitter.start) * k / (kMoments - 1));
+    return moments;
+}
+
 std::vector<Flight> flightsOf(const Scene& scene) {
     std::vector<Flight> flights;
     const auto sampleOf = [](std::size_t count) {
@@ -106,8 +117,11 @@ std::vector<Flight> flightsOf(const Scene& scene) {
     for (const std::uint32_t p : sampleOf(particles.count()))
         flights.push_back({particles.position[p], particles.velocity[p], particles.radius[p]});
     for (const engine::Emitter& emitter : scene.setup.emitters)
-        for (const std::uint32_t s : sampleOf(emitter.sites.size()))
-            flights.push_back({emitter.sites[s], emitter.velocity, scene.setup.materials[emitter.material].radius});
+        for (const double moment : momentsOf(emitter, scene.duration))
+            for (const std::uint32_t s : sampleOf(emitter.sites.size())) {
+                const auto [start, velocity] = engine::launchAt(emitter, moment, {emitter.sites[s], emitter.velocity});
+                flights.push_back({start, velocity, scene.setup.materials[emitter.material].radius});
+            }
     return flights;
 }
 

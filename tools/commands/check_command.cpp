@@ -21,6 +21,7 @@
 #include "scenes/warnings/start_warnings.h"
 #include "studies/scaling/rank_model.h"
 #include "tools/commands/commands.h"
+#include "tools/run/field_text.h"
 #include "tools/run/forecast.h"
 #include "tools/run/run_report.h"
 #include "tools/run/run_warnings.h"
@@ -137,6 +138,8 @@ Json sceneJson(const scenes::Scene& scene) {
     json["uniform"] = terms.uniform();
     json["cutoff"] = terms.cutoff;
     json["obstacles"] = scene.setup.obstacles.shapes.size();
+    json["fields"] = Json::array();
+    for (const engine::Field& field : scene.setup.fields) json["fields"].push_back(fieldText(field));
     json["stepper"] = engine::nameOf(scene.setup.stepper);
     json["wanted_error"] =
         scene.setup.stepper == engine::StepperKind::automatic ? Json(scene.setup.error) : Json(nullptr);
@@ -349,6 +352,7 @@ std::string checkText(const Json& json) {
     text += bodiesText(json["bodies"]);
     for (const Json& mesh : json["meshes"]) text += fmt::format("mesh       {}\n", mesh.get<std::string>());
     text += fmt::format("obstacles  {}\n", json["obstacles"].get<std::size_t>());
+    for (const Json& field : json["fields"]) text += fmt::format("field      {}\n", field.get<std::string>());
     text += predictedText(json);
     text += ranksText(json);
     if (const Json& cutOff = json["cut_off"]; !cutOff.is_null())

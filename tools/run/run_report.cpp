@@ -85,11 +85,13 @@ Json errorJson(const engine::Simulation& simulation, const engine::ErrorSamples&
 }
 
 Json energyJson(const engine::Energy& energy) {
-    return {{"kinetic", energy.kinetic},
-            {"pairs", energy.pairs},
-            {"contacts", energy.contacts},
-            {"gravity", energy.gravity},
-            {"total", energy.total()}};
+    Json json = {{"kinetic", energy.kinetic},
+                 {"pairs", energy.pairs},
+                 {"contacts", energy.contacts},
+                 {"gravity", energy.gravity},
+                 {"total", energy.total()}};
+    if (energy.fields != 0.0) json["fields"] = energy.fields;
+    return json;
 }
 
 /// The first fields of run.json: the scene, and what the program ran on and drew with.
