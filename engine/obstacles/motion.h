@@ -39,7 +39,7 @@ struct Motion {
     Vec3 spin = Vec3::Zero();      ///< angular velocity about an axis through the pivot, rad/s; without keys
     /// Path of the pivot and of the angles, in increasing order of time. Before the first and after the last key the
     /// obstacle is at rest there. In between, all six numbers follow monotone cubics; see core/monotone_cubic.h.
-    std::vector<PoseKey> keys;
+    std::vector<PoseKey> keys = {};
     double until = std::numeric_limits<double>::infinity();  ///< time at which the obstacle is taken away, s
 
     /// Whether the shape is there for ever, where it is given.

@@ -39,7 +39,7 @@ struct FlowField {
 
 struct Field {
     std::variant<UniformField, PointField, FlowField> law;
-    std::optional<BoundingBox> box;                          ///< where it acts; everywhere if there is none
+    std::optional<BoundingBox> box = {};                     ///< where it acts; everywhere if there is none
     double start = 0.0;                                      ///< it acts from this time on, s
     double until = std::numeric_limits<double>::infinity();  ///< and up to this time, s
 

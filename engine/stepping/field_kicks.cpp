@@ -3,7 +3,9 @@
 #include "engine/stepping/field_kicks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "engine/core/parallel.h"
@@ -20,20 +22,34 @@ std::vector<FieldKick> kicksBetween(const std::vector<Field>& fields, double fro
     return kicks;
 }
 
-/// Applies kicks one after another; returns the energy (J) that the particles of all ranks have gained, or 0 if the
-/// steps are not audited.
-double apply(Simulation& simulation, const std::vector<FieldKick>& kicks) {
+/// What kicks have done to the particles of all ranks.
+struct KickSums {
+    double gain = 0.0;          ///< of kinetic energy, J
+    double differenceSq = 0.0;  ///< sum of the squared differences to the kicks before, (radii per second)^2
+};
+
+/// Applies kicks one after another, and records what they change in the step cache. The sums are left out if the steps
+/// are not audited.
+KickSums kickAll(Simulation& simulation, const std::vector<FieldKick>& kicks) {
     Particles& particles = simulation.particles;
-    const auto gain = [&](std::size_t p) {
+    std::vector<Vec3>& changes = simulation.cache->fieldChanges;
+    changes.resize(particles.count(), Vec3::Zero());
+    const auto kickOne = [&](std::size_t p) {
         const Vec3 before = particles.velocity[p];
         Vec3 after = before;
         for (const FieldKick& kick : kicks) after = kick.velocityAfter(particles.position[p], after);
         particles.velocity[p] = after;
-        return 0.5 * particles.mass[p] * dot(after - before, after + before);
+        const Vec3 change = after - before;
+        const double differenceSq = squaredLength(change - changes[p]) / (particles.radius[p] * particles.radius[p]);
+        changes[p] = change;
+        return std::array{0.5 * particles.mass[p] * dot(change, after + before), differenceSq};
     };
-    if (simulation.cache->energy) return exactSum(*simulation.ranks, particles.count(), gain);
-    inParallel(particles.count(), kParticleGrain, [&](std::size_t p) { gain(p); });
-    return 0.0;
+    if (simulation.cache->energy) {
+        const auto [gain, differenceSq] = exactSums<2>(*simulation.ranks, particles.count(), kickOne);
+        return {gain, differenceSq};
+    }
+    inParallel(particles.count(), kParticleGrain, [&](std::size_t p) { kickOne(p); });
+    return {};
 }
 
 }  // namespace
@@ -41,7 +57,9 @@ double apply(Simulation& simulation, const std::vector<FieldKick>& kicks) {
 void kickBefore(Simulation& simulation, double h) {
     const double from = simulation.time;
     const std::vector<FieldKick> kicks = kicksBetween(simulation.setup.fields, from, from + 0.5 * h);
-    if (!kicks.empty()) simulation.cache->work += apply(simulation, kicks);
+    std::vector<Vec3>& changes = simulation.cache->fieldChanges;
+    changes.clear();
+    if (!kicks.empty()) simulation.cache->work += kickAll(simulation, kicks).gain;
 }
 
 void kickAfter(Simulation& simulation, double h) {
@@ -51,12 +69,14 @@ void kickAfter(Simulation& simulation, double h) {
     std::vector<FieldKick> kicks = kicksBetween(simulation.setup.fields, from + 0.5 * h, from + h);
     if (kicks.empty()) return;
     std::reverse(kicks.begin(), kicks.end());  // in the mirrored order, so that the step is symmetric in time
-    const double gain = apply(simulation, kicks);
+    const auto [gain, differenceSq] = kickAll(simulation, kicks);
     cache.work += gain;
     if (!cache.energy || !isVerlet(simulation.stepper)) return;
     *cache.energy += gain;
     cache.kinetic += gain;
     cache.workAtEnergy += gain;
+    cache.predictionError +=
+        std::sqrt(differenceSq / static_cast<double>(std::max<std::uint64_t>(1, countOfAll(simulation))));
 }
 
 }  // namespace engine

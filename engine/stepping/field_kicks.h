@@ -12,7 +12,7 @@ namespace engine {
 void kickBefore(Simulation& simulation, double h);
 
 /// The same over the second half. Where the stepper knows the energy at the end of the step, the gain is added to that
-/// energy, too.
+/// energy, too, and the difference of the two halves to the error of its prediction.
 void kickAfter(Simulation& simulation, double h);
 
 }  // namespace engine

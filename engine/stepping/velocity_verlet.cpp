@@ -40,6 +40,9 @@ void velocityVerletStep(Simulation& simulation, double h, double lambda) {
     const double from = simulation.time;
     prepareDrift(simulation, h);
     std::vector<Vec3>& predicted = simulation.cache->predictedVelocities;
+    // Forces depend on the velocities after the fields' second half, too, which is about the first.
+    const std::vector<Vec3>& fieldChanges = simulation.cache->fieldChanges;
+    const auto changeByFields = [&](std::size_t p) { return Vec3((2.0 * lambda - 1.0) * fieldChanges[p]); };
     predicted.resize(particles.count());
     inParallel(particles.count(), contactGrain(simulation.setup.obstacles), [&](std::size_t p) {
         Vec3& velocity = particles.velocity[p];
@@ -52,6 +55,7 @@ void velocityVerletStep(Simulation& simulation, double h, double lambda) {
             drift(simulation, p, from + 0.5 * h, 0.5 * h);
         }
         predicted[p] = velocity + (2.0 * lambda - 1.0) * change;
+        if (!fieldChanges.empty()) predicted[p] += changeByFields(p);
     });
     recordHeld(simulation);
     if (!isValid(simulation)) return markInvalid(simulation);
@@ -66,7 +70,8 @@ void velocityVerletStep(Simulation& simulation, double h, double lambda) {
             const ContactSums contacts = resolvedContacts(simulation, p, predicted[p], from + h, 0.5 * h);
             particles.velocity[p] += halfKick(particles, p, h, simulation.cache->forces[p] + contacts.force);
             const double radius = particles.radius[p];
-            const Vec3 missing = particles.velocity[p] - predicted[p];
+            Vec3 missing = particles.velocity[p] - predicted[p];
+            if (!fieldChanges.empty()) missing += changeByFields(p);
             const double errorSq =
                 std::min(squaredLength(missing), squaredLength(missing - unpredictedFall)) / (radius * radius);
             const ParticleEnergy energy = particleEnergy(simulation, p, contacts.energy);

@@ -154,7 +154,7 @@ TEST_CASE("A wait for room moves an emission to where its emitter is then", "[em
     const double born = simulation.particles.birthTime[1];
     CHECK(born >= 0.1 - 1e-9);
     CHECK(born <= 0.1 + retryDelay(setup.emitters[0]));
-    checkNear(simulation.particles.velocity[1], Vec3(1, 0, 0), 0.1);  // but for the push at the first contact
+    CHECK(simulation.particles.position[1].x() > born + 0.3);  // it goes on with its emitter, a little damped
 }
 
 TEST_CASE("Runs with an emitter in motion go on from checkpoints with the same bits", "[emitters]") {
