@@ -1,5 +1,6 @@
 // Makes the fields of the simulation from the [[field]] tables of a scene.
 #include <numbers>
+#include <variant>
 
 #include "scenes/build/builders.h"
 

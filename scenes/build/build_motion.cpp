@@ -1,5 +1,6 @@
 // Motions of what a scene moves: a constant velocity and a spin, or a path of keys.
 #include <numbers>
+#include <utility>
 
 #include "scenes/build/builders.h"
 
