@@ -1,6 +1,6 @@
 // Fields: what acts on particles at a distance besides gravity, everywhere or in a box, always or for some time. A
 // uniform or point field accelerates particles, a flow drags them along. Part of a Setup; applied by
-// stepping/field_kicks.h.
+// stepping/take_step.h.
 #pragma once
 
 #include <limits>

@@ -8,7 +8,6 @@
 #include "engine/state/probe.h"
 #include "engine/state/state_checks.h"
 #include "engine/stepping/drift.h"
-#include "engine/stepping/field_kicks.h"
 #include "engine/stepping/kick_drift.h"
 #include "engine/stepping/obstacle_loads.h"
 #include "engine/stepping/population.h"

@@ -15,6 +15,18 @@ namespace engine {
 /// the simulation's time.
 void takeStep(Simulation& simulation, double h);
 
+// A step of any stepper stands between two halves of the fields' kick (Strang splitting), which keeps steppers of
+// second order at second order: meanwhile particles stay where they are, and drag decays exactly. takeStep() does this;
+// the functions below are for the loop of the paper's stepper. They do nothing in a scene without fields.
+
+/// Changes the velocities by the fields' action over the first half of a step of h seconds from the simulation's time.
+/// The energy that the particles gain is added to the step cache's work.
+void kickBefore(Simulation& simulation, double h);
+
+/// The same over the second half. Where the stepper knows the energy at the end of the step, the gain is added to that
+/// energy, too, and the difference of the two halves to the error of its prediction.
+void kickAfter(Simulation& simulation, double h);
+
 /// The smallest number of equal steps, at least one, that last a duration (s) and are each no longer than a bound (s).
 /// The slack keeps 0.02 s at steps of 0.01 s from becoming three.
 inline double stepCount(double duration, double longest) {

@@ -18,10 +18,10 @@
 #include "engine/run/strays.h"
 #include "engine/stepping/step_bound.h"
 #include "engine/stepping/take_step.h"
+#include "scenes/model/field_text.h"
 #include "scenes/warnings/start_warnings.h"
 #include "studies/scaling/rank_model.h"
 #include "tools/commands/commands.h"
-#include "tools/run/field_text.h"
 #include "tools/run/forecast.h"
 #include "tools/run/run_report.h"
 #include "tools/run/run_warnings.h"
@@ -139,7 +139,7 @@ Json sceneJson(const scenes::Scene& scene) {
     json["cutoff"] = terms.cutoff;
     json["obstacles"] = scene.setup.obstacles.shapes.size();
     json["fields"] = Json::array();
-    for (const engine::Field& field : scene.setup.fields) json["fields"].push_back(fieldText(field));
+    for (const engine::Field& field : scene.setup.fields) json["fields"].push_back(scenes::fieldText(field));
     json["stepper"] = engine::nameOf(scene.setup.stepper);
     json["wanted_error"] =
         scene.setup.stepper == engine::StepperKind::automatic ? Json(scene.setup.error) : Json(nullptr);

@@ -5,10 +5,10 @@
 
 #include "engine/state/fields.h"
 
-namespace tools {
+namespace scenes {
 
 /// What a field does, and where and when: "wind of (2, 0, 0) m/s, which takes 0.5 s to drag along two thirds, above
 /// (0, 1, 0) m, until 2 s".
 std::string fieldText(const engine::Field& field);
 
-}  // namespace tools
+}  // namespace scenes

@@ -1,12 +1,12 @@
 // Words for fields.
-#include "tools/run/field_text.h"
+#include "scenes/model/field_text.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
 
-namespace tools {
+namespace scenes {
 namespace {
 
 using engine::Vec3;
@@ -29,7 +29,7 @@ std::string lawText(const engine::FlowField& field) {
     const std::string drag = field.rate > 0.0
                                  ? fmt::format("which takes {:.4g} s to drag along two thirds", 1.0 / field.rate)
                                  : "which drags nothing along, for its rate is 0";
-    const double turns = std::sqrt(squaredLength(field.spin)) / (2.0 * std::numbers::pi);
+    const double turns = field.spin.norm() / (2.0 * std::numbers::pi);
     if (turns > 0.0) return fmt::format("vortex of {:.4g} turns/s about {}, {}", turns, vectorText(field.center), drag);
     if (field.velocity == Vec3::Zero()) return fmt::format("still air, {}", drag);
     return fmt::format("wind of {} m/s, {}", vectorText(field.velocity), drag);
@@ -52,4 +52,4 @@ std::string fieldText(const engine::Field& field) {
     return text;
 }
 
-}  // namespace tools
+}  // namespace scenes
