@@ -7,7 +7,6 @@
 #include "scenes/build/builders.h"
 #include "scenes/model/to_float.h"
 #include "scenes/shapes/mesh_distances.h"
-#include "scenes/shapes/outlines.h"
 #include "scenes/shapes/tessellation.h"
 
 namespace scenes {

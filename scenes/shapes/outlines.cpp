@@ -1,4 +1,4 @@
-#include "scenes/shapes/outlines.h"
+// The lines of tessellation.h.
 
 #include <algorithm>
 #include <array>
@@ -7,6 +7,8 @@
 #include <map>
 #include <numbers>
 #include <tuple>
+
+#include "scenes/shapes/tessellation.h"
 
 namespace scenes {
 namespace {

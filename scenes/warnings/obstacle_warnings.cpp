@@ -223,9 +223,9 @@ void findAboutEmitters(const Scene& scene, StartMessages& messages) {
         const engine::Emitter& emitter = scene.setup.emitters[e];
         const double radius = scene.setup.materials[emitter.material].radius;
         const std::vector<std::uint32_t> sample = sampleAgainst(emitter.sites.size(), obstacleCount);
-        std::vector<Vec3> points;
-        for (const Vec3& site : emitter.sites)
-            points.push_back(engine::launchAt(emitter, emitter.start, {site, Vec3::Zero()}).position);
+        std::vector<engine::Vec3> points;
+        for (const engine::Vec3& site : emitter.sites)
+            points.push_back(engine::launchAt(emitter, emitter.start, {site, engine::Vec3::Zero()}).position);
         const Places sites{points, sample, [&](std::uint32_t) { return radius; }, "point of emission"};
         findSitesInside(scene, e, sites, messages);
         findContradictions(
