@@ -68,11 +68,11 @@
 // covers
 //   edge(x/w)  with  w = S min(mean radius of the particles, E/2),
 // where x is the distance on the light's plane from the nearest of the lines through the sides of its outline, positive
-// inside, and E the distance at which the ray leaves it. A box behind the point covers nothing. Meshes and metaballs
-// cover the share of rays to the light that meet them. With t = S/2 mean radii, these rays start around
-//   p + 1.5 t n + 0.5 t l,  p being the point,
-// and are spread over the light's plane with the weights of a quadratic B-spline, 3 t wide, along each of the axes u
-// and v of light_space.h. With S = 0 edges are sharp, up to the width of a pixel.
+// inside, and E the distance at which the ray leaves it. A box behind the point covers nothing. Metaballs cover the
+// share of rays to the light that meet them. With t = S/2 mean radii, these rays start around  p + 1.5 t n + 0.5 t l,
+// p being the point, and are spread over the light's plane with the weights of a quadratic B-spline, 3 t wide, along
+// each of the axes u and v of light_space.h. Meshes cover the share of such rays that enter a solid, which start around
+// p + 1.5 t |n x l| n. With S = 0 edges are sharp, up to the width of a pixel.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -36,6 +36,12 @@ Hit hitTriangle(const Ray& ray, const MeshTriangle& triangle) {
     return hit;
 }
 
+/// Whether a ray runs against the outer side of a triangle.
+bool isOuter(const Ray& ray, const MeshTriangle& triangle) {
+    const auto& [a, b, c] = triangle.corners;
+    return glm::dot(glm::cross(b - a, c - a), ray.direction) < 0.0;
+}
+
 }  // namespace
 
 MeshTree::MeshTree(const render::View& view) {
@@ -89,16 +95,17 @@ void MeshTree::split(std::size_t node) {
     split(children + 1);
 }
 
-void MeshTree::trace(std::size_t node, const Ray& ray, Hit& best) const {
+void MeshTree::trace(std::size_t node, const Ray& ray, bool outerOnly, Hit& best) const {
     const Node& at = nodes_[node];
     const BoxInterval inside = boxInterval(ray, at.low, at.high);
     if (inside.enter > inside.exit || inside.exit < 0.0 || inside.enter > best.distance) return;
     if (at.children != 0) {
-        trace(at.children, ray, best);
-        trace(at.children + 1, ray, best);
+        trace(at.children, ray, outerOnly, best);
+        trace(at.children + 1, ray, outerOnly, best);
         return;
     }
     for (std::size_t k = at.first; k < at.first + at.count; ++k) {
+        if (outerOnly && !isOuter(ray, triangles_[k])) continue;
         const Hit hit = hitTriangle(ray, triangles_[k]);
         if (hit.distance < best.distance) best = hit;
     }
@@ -106,8 +113,14 @@ void MeshTree::trace(std::size_t node, const Ray& ray, Hit& best) const {
 
 Hit MeshTree::nearest(const Ray& ray) const {
     Hit best;
-    if (!triangles_.empty()) trace(0, ray, best);
+    if (!triangles_.empty()) trace(0, ray, false, best);
     return best;
+}
+
+bool MeshTree::isEntered(const Ray& ray) const {
+    Hit best;
+    if (!triangles_.empty()) trace(0, ray, true, best);
+    return best.distance < kInfinity;
 }
 
 }  // namespace oracle

@@ -29,6 +29,8 @@ class MeshTree {
     /// The nearest point of a triangle along a ray; Kind::none if there is none. The normal is interpolated between
     /// the corners, and turned around where the ray meets the inner side of the triangle.
     Hit nearest(const Ray& ray) const;
+    /// Whether a ray meets the outer side of any triangle, through which it enters a solid.
+    bool isEntered(const Ray& ray) const;
 
  private:
     /// A box around the triangles first ... first + count - 1. An inner node has its two children one after another.
@@ -41,7 +43,7 @@ class MeshTree {
     };
 
     void split(std::size_t node);
-    void trace(std::size_t node, const Ray& ray, Hit& best) const;
+    void trace(std::size_t node, const Ray& ray, bool outerOnly, Hit& best) const;
 
     std::vector<MeshTriangle> triangles_;
     std::vector<Node> nodes_;

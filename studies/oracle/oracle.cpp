@@ -162,11 +162,11 @@ Hit traceCasters(const Scene& scene, const Ray& ray) {
 double coverOfMeshes(const Scene& scene, const ShadedPoint& shaded) {
     if (scene.view.meshObstacles.empty()) return 0.0;
     double met = 0.0;
-    const std::vector<dvec3> origins = fieldShadowOrigins(shaded, meanRadius(scene.view));
-    for (const dvec3& origin : origins)
-        met += scene.meshes.nearest({origin + lift(shaded.point) * shaded.normal, shaded.toLight}).distance < kInfinity
-                   ? 1.0
-                   : 0.0;
+    const std::vector<dvec3> origins = meshShadowOrigins(shaded, meanRadius(scene.view));
+    for (const dvec3& origin : origins) {
+        const Ray ray{origin + lift(shaded.point) * shaded.normal, shaded.toLight};
+        met += scene.meshes.isEntered(ray) ? 1.0 : 0.0;
+    }
     return met / static_cast<double>(origins.size());
 }
 

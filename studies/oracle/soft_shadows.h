@@ -107,12 +107,11 @@ inline double shiftFor(const dvec3& point, std::uint64_t salt) {
     return static_cast<double>(z >> 11) * 0x1p-53;
 }
 
-/// Origins of shadow rays to the light that sample the filter of metaball shadows, a B-spline, with equal weights.
-inline std::vector<dvec3> fieldShadowOrigins(const ShadedPoint& shaded, double particleRadius) {
+/// Origins of shadow rays to the light that sample a B-spline around a point with equal weights.
+/// @param step  a third of the width of the spline, m
+inline std::vector<dvec3> shadowOrigins(const dvec3& middle, double step, const dvec3& toLight) {
     constexpr int kPerAxis = 3;
-    const double step = 0.5 * shaded.softness * particleRadius;
-    const std::array<dvec3, 2> axes = lightAxes(shaded.toLight);
-    const dvec3 middle = shaded.point + 1.5 * step * shaded.normal + 0.5 * step * shaded.toLight;
+    const std::array<dvec3, 2> axes = lightAxes(toLight);
     std::vector<dvec3> origins;
     for (int j = 0; j < kPerAxis; ++j) {
         for (int i = 0; i < kPerAxis; ++i) {
@@ -122,6 +121,20 @@ inline std::vector<dvec3> fieldShadowOrigins(const ShadedPoint& shaded, double p
         }
     }
     return origins;
+}
+
+/// Origins of the shadow rays for metaballs.
+inline std::vector<dvec3> fieldShadowOrigins(const ShadedPoint& shaded, double particleRadius) {
+    const double step = 0.5 * shaded.softness * particleRadius;
+    const dvec3 middle = shaded.point + 1.5 * step * shaded.normal + 0.5 * step * shaded.toLight;
+    return shadowOrigins(middle, step, shaded.toLight);
+}
+
+/// Origins of the shadow rays for meshes.
+inline std::vector<dvec3> meshShadowOrigins(const ShadedPoint& shaded, double particleRadius) {
+    const double step = 0.5 * shaded.softness * particleRadius;
+    const double sine = glm::length(glm::cross(shaded.normal, shaded.toLight));
+    return shadowOrigins(shaded.point + 1.5 * step * sine * shaded.normal, step, shaded.toLight);
 }
 
 }  // namespace oracle

@@ -143,16 +143,24 @@ V weightAbove(const DepthMap& map, VI start, const HeightWeights& across, const 
 }
 
 /// Percentage-closer filtering of the depth map, with weights that change continuously with the point.
-V mapCoverage(const DepthMap& map, const Occluders& occluders, const Receivers& at) {
+/// @param isMesh  whether the map is that of meshes: then it has no surface that light reaches
+V mapCoverage(const DepthMap& map, const Occluders& occluders, const Receivers& at, bool isMesh) {
     const D d;
     const LightBasis& light = occluders.light;
     // The point is raised off the surface by as much as the filter reaches sideways, so that a slope does not shade
-    // itself.
-    const Vec3 raised = pointOnRay(at.position, splat(1.5F * map.texelSize), at.normal);
+    // itself. Above the surfaces of meshes that light does not reach it need not be farther than a plane rises
+    // sideways.
+    V lift = splat(1.5F * map.texelSize);
+    if (isMesh) {
+        const V cosine = dot(at.normal, splat(light.toLight));
+        lift = lift * hn::Sqrt(hn::Max(splat(1.0F) - cosine * cosine, splat(0.0F)));
+    }
+    const float above = isMesh ? 0.0F : 0.5F * map.texelSize;
+    const Vec3 raised = pointOnRay(at.position, lift, at.normal);
     const V inverse = splat(1.0F / map.texelSize);
     const V u = (dot(raised, splat(light.u)) - splat(map.origin.x)) * inverse;
     const V v = (dot(raised, splat(light.v)) - splat(map.origin.y)) * inverse;
-    const V height = dot(raised, splat(light.toLight)) + splat(0.5F * map.texelSize - map.bottom);
+    const V height = dot(raised, splat(light.toLight)) + splat(above - map.bottom);
     // The map's height 0, which stands for no surface, is above no point.
     const V steps = hn::Max(height / splat(map.step) + splat(1.0F), splat(0.0F));
     const V column = hn::Floor(u);
@@ -181,8 +189,8 @@ V lightVisibilityAt(const Occluders& occluders, const Receivers& at) {
     V coverage = splat(0.0F);
     if (occluders.spheres != nullptr) coverage = coverage + spheresCoverage(*occluders.spheres, at, occluders.softness);
     if (occluders.lightBoxes != nullptr) coverage = addBoxes(occluders, at, coverage);
-    if (occluders.metaballs != nullptr) coverage = coverage + mapCoverage(*occluders.metaballs, occluders, at);
-    if (occluders.meshes != nullptr) coverage = coverage + mapCoverage(*occluders.meshes, occluders, at);
+    if (occluders.metaballs != nullptr) coverage = coverage + mapCoverage(*occluders.metaballs, occluders, at, false);
+    if (occluders.meshes != nullptr) coverage = coverage + mapCoverage(*occluders.meshes, occluders, at, true);
     return hn::IfThenElseZero(at.isFacing, hn::Max(splat(1.0F) - coverage, splat(0.0F)));
 }
 
