@@ -126,6 +126,20 @@ engine::ErrorSamples decodeErrors(const Json& json) {
             json["evaluation_cost"].get<double>()};
 }
 
+/// What the particles have done to each obstacle whose load is recorded: the opposite of what it has given them.
+Json loadsJson(const engine::Simulation& simulation) {
+    Json list = Json::array();
+    for (std::size_t k = 0; k < simulation.loads.size(); ++k) {
+        if (!engine::isRecorded(simulation.setup.obstacles, k)) continue;
+        const engine::ObstacleLoad& load = simulation.loads[k];
+        list.push_back({{"obstacle", k + 1},
+                        {"impulse", vectorJson(-load.impulse)},
+                        {"angular_impulse", vectorJson(-load.angularImpulse)},
+                        {"work", load.work}});
+    }
+    return list;
+}
+
 void addTo(Json& json, const RendererRecord& renderer) {
     const auto textOrNull = [](const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); };
     json["renderer"] = textOrNull(renderer.name);
@@ -156,6 +170,7 @@ Json runJson(const scenes::Scene& scene, FinishedRun& run) {
     json["walls"] = {{"held", simulation.steps.held},
                      {"deepest", simulation.wallDepths.deepest},
                      {"centers_outside", simulation.wallDepths.centersOutside}};
+    if (!simulation.loads.empty()) json["obstacles"] = loadsJson(simulation);
     json["frames"] = report.frames;
     json["resumed_from"] = report.resumedFrom ? Json(*report.resumedFrom) : Json(nullptr);
     json["interrupted"] = report.interruptedBy != 0;
