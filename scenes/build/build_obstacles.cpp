@@ -3,6 +3,7 @@
 #include <limits>
 #include <memory>
 
+#include "engine/obstacles/obstacle_surfaces.h"
 #include "scenes/build/build_shapes.h"
 #include "scenes/build/builders.h"
 #include "scenes/model/to_float.h"
@@ -59,18 +60,16 @@ BuiltShape turnedFrom(const Section& section) {
             std::make_shared<const render::SolidMesh>(revolutionMesh(profile, spec.isClosed, half)), center};
 }
 
-/// @param voxel  of the distances from the mesh, m
-BuiltShape meshObstacleFrom(const Section& section, double voxel, const BuildContext& context) {
-    const Mesh mesh = placedMeshFrom(section, context);
+BuiltShape meshObstacleFrom(const Section& section, const VoxelGrid& grid, BuildContext& context) {
     const Vec3 center = placementFrom(section, context).center;
-    return {engine::meshSolid(distancesOf(mesh, voxel, section.string("file")), center),
-            std::make_shared<const render::SolidMesh>(smoothMesh(mesh)), center};
+    return {engine::meshSolid(gridFrom(section, grid, context), center),
+            std::make_shared<const render::SolidMesh>(smoothMesh(placedMeshFrom(section, context))), center};
 }
 
-BuiltShape shapeFrom(Section& section, double voxel, BuildContext& context) {
+BuiltShape shapeFrom(Section& section, const VoxelGrid& grid, BuildContext& context) {
     const std::string& shape = section.string("shape");
     if (isTurned(section)) return turnedFrom(section);
-    if (shape == "mesh") return meshObstacleFrom(section, voxel, context);
+    if (shape == "mesh") return meshObstacleFrom(section, grid, context);
     if (shape == "plane") return {planeFrom(section, context), {}, section.vector("point")};
     if (shape == "sphere") {
         const Vec3& center = section.vector("center");
@@ -153,12 +152,19 @@ void checkPaperWalls(Section& section, BuildContext& context) {
     }
 }
 
-/// The smallest radius that a particle of the scene can have, m.
-double smallestRadius(const Scene& scene) {
+/// The grid of the distances from a mesh: voxels are half as wide as the smallest particle's radius, and the band
+/// reaches as far as a surface may act on the largest.
+VoxelGrid voxelGridFor(const Materials& materials, const Scene& scene) {
     double smallest = std::numeric_limits<double>::infinity();
-    for (const engine::Material& material : scene.setup.materials) smallest = std::min(smallest, material.radius);
-    for (const double radius : scene.setup.initial.radius) smallest = std::min(smallest, radius);
-    return smallest;
+    double largest = 0.0;
+    const auto include = [&](double radius) {
+        smallest = std::min(smallest, radius);
+        largest = std::max(largest, radius);
+    };
+    for (const engine::Material& material : materials.list) include(material.radius);
+    for (const double radius : scene.setup.initial.radius) include(radius);
+    const double voxel = 0.5 * smallest;
+    return {voxel, engine::largestContactReach(largest) + voxel};
 }
 
 /// Checks the keys of an obstacle's shape against one another.
@@ -172,9 +178,9 @@ void checkShape(Section& section, BuildContext& context) {
     if (isTurned(section)) section.derive("center", TypedValue::ofVector(Vec3::Zero()));
 }
 
-void buildObstacle(Section& section, double voxel, const Section& look, Scene& scene, BuildContext& context) {
+void buildObstacle(Section& section, const VoxelGrid& grid, const Section& look, Scene& scene, BuildContext& context) {
     engine::Obstacles& obstacles = scene.setup.obstacles;
-    const BuiltShape built = shapeFrom(section, voxel, context);
+    const BuiltShape built = shapeFrom(section, grid, context);
     section.derive("pivot", TypedValue::ofVector(built.middle));
     engine::Motion motion = motionFrom(section, "velocity", section.vector("pivot"), context);
     if (section.has("until")) motion.until = section.number("until");
@@ -190,20 +196,19 @@ void buildObstacle(Section& section, double voxel, const Section& look, Scene& s
 
 }  // namespace
 
-void buildObstacles(std::vector<Section>& sections, const Section& physics, const Section& look, Scene& scene,
-                    BuildContext& context) {
+void buildObstacles(std::vector<Section>& sections, const Section& physics, const Section& look,
+                    const Materials& materials, Scene& scene, BuildContext& context) {
     engine::Obstacles& obstacles = scene.setup.obstacles;
     const bool isPaper = physics.has("wall") && physics.string("wall") == "paper";
     obstacles.wall = isPaper ? engine::WallLaw::paper : engine::WallLaw::scaled;
-    // Voxels of meshes are half a particle's radius wide.
-    const double voxel = 0.5 * smallestRadius(scene);
+    const VoxelGrid grid = voxelGridFor(materials, scene);
     for (Section& section : sections) {
         if (!section.has("shape")) continue;
         checkShape(section, context);
         if (isPaper) checkPaperWalls(section, context);
         if (!section.isValid()) continue;
         try {
-            buildObstacle(section, voxel, look, scene, context);
+            buildObstacle(section, grid, look, scene, context);
         } catch (const InputError& error) {
             section.markInvalid();
             context.problems.add(section.position("file"), error);

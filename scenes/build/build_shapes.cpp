@@ -213,13 +213,13 @@ Mesh placedMeshFrom(const Section& section, const BuildContext& context) {
     return centeredMesh(meshFrom(section, context), section.number("scale"));
 }
 
-engine::DistanceGrid gridFrom(const Section& section, double voxel, BuildContext& context) {
+engine::DistanceGrid gridFrom(const Section& section, const VoxelGrid& wanted, BuildContext& context) {
     const Mesh mesh = placedMeshFrom(section, context);
-    engine::DistanceGrid grid = distancesOf(mesh, voxel, pathOf(section, "file", context));
+    engine::DistanceGrid grid = distancesOf(mesh, wanted, pathOf(section, "file", context));
     context.meshNotes.push_back(fmt::format(
         "{}: {} triangles, watertight, {:.4g} m^3; distances from it on {:.2g} voxels of {:.3g} m, {:.3g} MB",
         section.string("file"), mesh.triangles.size(), massOf(mesh).volume,
-        static_cast<double>(engine::voxelCount(grid.bricks())), voxel,
+        static_cast<double>(engine::voxelCount(grid.bricks())), wanted.voxel,
         static_cast<double>(engine::memoryOf(grid.bricks())) / 1e6));
     return grid;
 }
@@ -244,7 +244,7 @@ Solid closedFormFrom(const Section& section, const BuildContext& context) {
 Solid solidFrom(const Section& section, double voxel, BuildContext& context) {
     if (section.string("shape") != "mesh") return closedFormFrom(section, context);
     std::vector<Vec3> points = placedMeshFrom(section, context).points;
-    return {gridFrom(section, voxel, context),
+    return {gridFrom(section, {voxel, 3.0 * voxel}, context),
             {{}, std::move(points), 0.0},
             placementFrom(section, context),
             thicknessOf(section)};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenes/build/builders.h"
+#include "scenes/shapes/mesh_distances.h"
 #include "scenes/shapes/profile.h"
 #include "scenes/shapes/solid.h"
 
@@ -29,7 +30,7 @@ Mesh placedMeshFrom(const Section& section, const BuildContext& context);
 
 /// The distances from that mesh, of which the context notes how many voxels they have. Throws InputError as
 /// mesh_distances.h says.
-engine::DistanceGrid gridFrom(const Section& section, double voxel, BuildContext& context);
+engine::DistanceGrid gridFrom(const Section& section, const VoxelGrid& grid, BuildContext& context);
 
 /// Where the table places its shape. The rotation is about the center.
 Placement placementFrom(const Section& section, const BuildContext& context);

@@ -71,9 +71,9 @@ std::vector<engine::Field> buildFields(std::vector<Section>& sections, BuildCont
 CameraPath buildCamera(std::vector<Section>& sections, BuildContext& context);
 /// @param camera  gives the ground's default distance of fading a scale
 Look buildLook(Section& section, const CameraPath& camera, BuildContext& context);
-/// Adds the obstacles to the simulation and to the look of the scene.
-void buildObstacles(std::vector<Section>& sections, const Section& physics, const Section& look, Scene& scene,
-                    BuildContext& context);
+/// Adds the obstacles to the simulation and to the look of the scene, after the bodies.
+void buildObstacles(std::vector<Section>& sections, const Section& physics, const Section& look,
+                    const Materials& materials, Scene& scene, BuildContext& context);
 /// Adds the overlay to the look of the scene. The cameras have to be built before, because a scale bar must fit into
 /// the picture of each of them.
 void buildOverlay(Section& section, const Section& look, Scene& scene, BuildContext& context);

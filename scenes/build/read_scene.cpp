@@ -181,7 +181,7 @@ void build(Sections& sections, BuildContext& context, Scene& scene) {
     scene.setup.fields = buildFields(sections.fields, context);
     scene.camera = buildCamera(sections.cameras, context);
     scene.look = buildLook(sections.look, scene.camera, context);
-    buildObstacles(sections.obstacles, sections.physics, sections.look, scene, context);
+    buildObstacles(sections.obstacles, sections.physics, sections.look, materials, scene, context);
     buildOverlay(sections.overlay, sections.look, scene, context);
     readStill(sections, context, scene);
     checkSize(sections, context);

@@ -269,9 +269,9 @@ std::vector<Key> obstacleKeys() {
             .defaultsTo("[0, 0, 0]")
             .within(kDegrees),
         velocity("velocity", "velocity of the obstacle").defaultsTo("[0, 0, 0]"),
-        key("spin", Type::vec3, "1/s", "turns a second about an axis through the pivot, which the vector points along")
+        key("spin", Type::vec3, "turns/s", "turning of the obstacle about its pivot: the axis, times turns a second")
             .defaultsTo("[0, 0, 0]")
-            .within({-1e4, 1e4}),
+            .within(kSpins),
         position("pivot", "point that the obstacle turns about, where it is placed without motion")
             .derivedAs("the center; of a plane, its point"),
         key("until", Type::number, "s", "the obstacle is taken away at this time")

@@ -3,13 +3,13 @@
 #pragma once
 
 #include "engine/shapes/distance_grid.h"
-#include "scenes/shapes/mesh.h"
+#include "scenes/shapes/mesh_distances.h"
 
 namespace scenes {
 
 struct DistancesModule {
     /// The bricks of mesh_distances.h.
-    engine::DistanceBricks (*bricksOf)(const Mesh& mesh, double voxel);
+    engine::DistanceBricks (*bricksOf)(const Mesh& mesh, const VoxelGrid& grid);
 };
 
 }  // namespace scenes

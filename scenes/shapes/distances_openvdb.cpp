@@ -94,7 +94,8 @@ engine::DistanceBricks bricksOf(const openvdb::FloatGrid& grid, double voxel) {
     return result;
 }
 
-engine::DistanceBricks bricksOfMesh(const Mesh& mesh, double voxel) {
+engine::DistanceBricks bricksOfMesh(const Mesh& mesh, const VoxelGrid& wanted) {
+    const double voxel = wanted.voxel;
     openvdb::initialize();
     std::vector<openvdb::Vec3s> points;  // in voxels
     std::vector<openvdb::Vec3I> triangles;
@@ -107,8 +108,8 @@ engine::DistanceBricks bricksOfMesh(const Mesh& mesh, double voxel) {
     const openvdb::tools::QuadAndTriangleDataAdapter<openvdb::Vec3s, openvdb::Vec3I> adapter(points, triangles);
     const auto transform = openvdb::math::Transform::createLinearTransform(voxel);
     // An unlimited band fills the inside.
-    const auto grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(adapter, *transform, kBandVoxels,
-                                                                       std::numeric_limits<float>::max());
+    const auto grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(
+        adapter, *transform, static_cast<float>(wanted.band / voxel), std::numeric_limits<float>::max());
     return bricksOf(*grid, voxel);
 }
 

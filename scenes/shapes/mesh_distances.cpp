@@ -31,7 +31,8 @@ const DistancesModule& distancesModule(const std::string& path) {
 
 }  // namespace
 
-double estimatedVoxels(const Mesh& mesh, double voxel) {
+double estimatedVoxels(const Mesh& mesh, const VoxelGrid& grid) {
+    const double voxel = grid.voxel;
     double area = 0.0;
     for (const auto& [a, b, c] : mesh.triangles)
         area +=
@@ -39,11 +40,12 @@ double estimatedVoxels(const Mesh& mesh, double voxel) {
             std::sqrt(engine::squaredLength((mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a])));
     // Bricks reach further than the band, by half their edge on average.
     return std::abs(massOf(mesh).volume) / (voxel * voxel * voxel) +
-           area * (kBandVoxels + 0.5 * engine::kBrickVoxels) / (voxel * voxel);
+           area * (grid.band / voxel + 0.5 * engine::kBrickVoxels) / (voxel * voxel);
 }
 
-engine::DistanceGrid distancesOf(const Mesh& mesh, double voxel, const std::string& path) {
-    const double voxels = estimatedVoxels(mesh, voxel);
+engine::DistanceGrid distancesOf(const Mesh& mesh, const VoxelGrid& grid, const std::string& path) {
+    const double voxel = grid.voxel;
+    const double voxels = estimatedVoxels(mesh, grid);
     if (!(voxels <= kMostVoxels))
         throw InputError(path, fmt::format("the mesh would have about {:.2g} voxels of {:.3g} m, at most {:.0e} are "
                                            "allowed; use larger particles, or scale it down",
@@ -55,7 +57,7 @@ engine::DistanceGrid distancesOf(const Mesh& mesh, double voxel, const std::stri
                                      "this size need at least {:.3g} m: thicken it, scale it up, or use smaller "
                                      "particles",
                                      thin.thickness, thin.place.x(), thin.place.y(), thin.place.z(), 2.0 * voxel));
-    return engine::DistanceGrid(distancesModule(path).bricksOf(mesh, voxel));
+    return engine::DistanceGrid(distancesModule(path).bricksOf(mesh, grid));
 }
 
 }  // namespace scenes

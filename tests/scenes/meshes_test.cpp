@@ -129,9 +129,9 @@ TEST_CASE("Volume and center of mass of a mesh follow from the divergence theore
 TEST_CASE("Distances from meshes are those of the shapes", "[meshes]") {
     const double voxel = 0.02;
     const Mesh ball = turnedMesh({{0.0, 0.0}}, false, 0.5);
-    const engine::DistanceGrid grid = scenes::distancesOf(ball, voxel, "ball.obj");
+    const engine::DistanceGrid grid = scenes::distancesOf(ball, {voxel, 3.0 * voxel}, "ball.obj");
     const Mesh box = boxMesh({0.6, 0.8, 1.0});
-    const engine::DistanceGrid boxGrid = scenes::distancesOf(box, voxel, "box.obj");
+    const engine::DistanceGrid boxGrid = scenes::distancesOf(box, {voxel, 3.0 * voxel}, "box.obj");
     for (double x = -0.7; x <= 0.7; x += 0.0637)
         for (double y = -0.7; y <= 0.7; y += 0.0637)
             for (double z = -0.7; z <= 0.7; z += 0.0637) {
@@ -154,16 +154,16 @@ TEST_CASE("Distances from meshes are the same bits for any number of threads", "
     const Mesh torus = turnedMesh({{0.5, 0.0}}, false, 0.2);
     const auto valuesWith = [&](std::size_t threads) {
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-        return scenes::distancesOf(torus, 0.02, "torus.obj").bricks().values;
+        return scenes::distancesOf(torus, {0.02, 3.0 * 0.02}, "torus.obj").bricks().values;
     };
     CHECK(valuesWith(1) == valuesWith(4));
 }
 
 TEST_CASE("A wall thinner than two voxels is refused with its place", "[meshes]") {
     const Mesh plate = boxMesh({1.0, 0.03, 1.0});
-    CHECK_NOTHROW(scenes::distancesOf(plate, 0.014, "plate.obj"));
+    CHECK_NOTHROW(scenes::distancesOf(plate, {0.014, 3.0 * 0.014}, "plate.obj"));
     try {
-        scenes::distancesOf(plate, 0.02, "plate.obj");
+        scenes::distancesOf(plate, {0.02, 3.0 * 0.02}, "plate.obj");
         FAIL("not refused");
     } catch (const scenes::InputError& error) {
         CHECK(error.problems()[0].message.find("the mesh is 0.03 m thin near (") == 0);
@@ -174,7 +174,8 @@ TEST_CASE("A wall thinner than two voxels is refused with its place", "[meshes]"
         if (point.x() > 0.0) point.y() *= 0.1;
     CHECK(!scenes::thinnestPlace(wedge, 0.019).isFound);
     CHECK(scenes::thinnestPlace(wedge, 0.04).place.x() > 0.6);
-    CHECK_THROWS_AS(scenes::distancesOf(boxMesh({100.0, 100.0, 100.0}), 0.01, "large.obj"), scenes::InputError);
+    CHECK_THROWS_AS(scenes::distancesOf(boxMesh({100.0, 100.0, 100.0}), {0.01, 3.0 * 0.01}, "large.obj"),
+                    scenes::InputError);
 }
 
 TEST_CASE("A body of a mesh has its volume and center of mass, scaled, placed and turned", "[meshes]") {
