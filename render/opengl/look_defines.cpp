@@ -24,7 +24,9 @@ void addLight(const PreparedView& prepared, TileClass kind, Defines& defines) {
     addIf(byBoxes && !prepared.lightBoxes.isFew(), "BOX_CELLS", defines);
     const bool byMetaballs = castsShadows && !prepared.depthMap.empty();
     addIf(byMetaballs, "METABALL_SHADOWS", defines);
-    addIf(bySpheres || byBoxes || byMetaballs, "SHADOWS", defines);
+    const bool byMeshes = castsShadows && !prepared.meshDepthMap.empty();
+    addIf(byMeshes, "MESH_SHADOWS", defines);
+    addIf(bySpheres || byBoxes || byMetaballs || byMeshes, "SHADOWS", defines);
     addIf(view.light.softness > 0.0F, "SOFT", defines);
     const bool isOccluded = prepared.hasOcclusion() && kind != TileClass::openGround;
     addIf(isOccluded, "OCCLUSION", defines);
@@ -65,6 +67,7 @@ Defines lookDefines(const PreparedView& prepared, TileClass kind) {
     }
     if (kind == TileClass::objects) return defines;
     addIf(!view.boxObstacles.empty(), "BOXES", defines);
+    addIf(!prepared.meshes.empty(), "MESHES", defines);
     addIf(!prepared.lines.lines.empty(), "LINES", defines);
     return defines;
 }

@@ -65,14 +65,26 @@ void PicturePasses::bindState() const {
 }
 
 void PicturePasses::upload(const PreparedView& view) {
-    buffers_.upload(view);
+    uploadMeshes(view);
+    buffers_.upload(view, view.meshes.empty() ? std::span<const char>() : meshes_->tiles());
     if (!view.hasMetaballs) return;
     if (!metaballs_) metaballs_.emplace(gl_, programs_, size_);
     metaballs_->upload(view);
 }
 
+void PicturePasses::uploadMeshes(const PreparedView& view) {
+    if (view.meshes.empty()) return;
+    bindState();
+    if (!meshes_) meshes_.emplace(gl_, programs_, size_);
+    meshes_->upload(view);
+}
+
 void PicturePasses::drawPicture(const PreparedView& view, std::vector<std::uint32_t>& pixels) {
     bindState();
+    if (!view.meshes.empty()) {
+        uploadFrame(view, glm::vec2(0.0F));
+        meshes_->drawDepthMap(view);
+    }
     const PassOutput output{"", quality_ == Quality::normal ? 4 : 1, {}};
     if (quality_ == Quality::final)
         drawMean(view);
@@ -112,6 +124,8 @@ void PicturePasses::drawSampling(const PreparedView& view, glm::vec2 offset, con
     uploadFrame(view, offset);
     if (view.hasMetaballs)
         metaballs_->cast(view, definesOf(view, TileClass::objects, output), offset, quality_ == Quality::final);
+    if (!view.meshes.empty())
+        meshes_->draw(view, output.samples == 4 ? std::span<const glm::vec2>(kFourSamples) : std::span(&offset, 1));
     target.bind();
     for (const TileClass kind : kTileClasses) drawTiles(view, kind, output);
 }
@@ -130,6 +144,7 @@ void PicturePasses::drawTiles(const PreparedView& view, TileClass kind, const Pa
     textures.push_back(output.sums);
     program.use(textures);
     const CellLists& tiles = view.sphereTiles;
+    if (!view.meshes.empty()) meshes_->setUniforms(view, program);
     program.set("tilesInTarget", static_cast<float>(tiles.columns), static_cast<float>(tiles.rows));
     gl_.DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(indices.size()));
 }
@@ -150,6 +165,7 @@ void PicturePasses::drawSilhouettes(const PreparedView& view, TileClass kind, co
     std::vector<TextureBinding> textures = texturesOf(view);
     textures.push_back(silhouettes_.binding());
     program.use(textures);
+    if (!view.meshes.empty()) meshes_->setUniforms(view, program);
     program.set("markedGrid", silhouettes_.grid());
     gl_.DrawArrays(GL_TRIANGLES, 0, 3);
     std::vector<std::uint32_t> drawn(pixelCount(size));
@@ -175,6 +191,7 @@ Defines PicturePasses::definesOf(const PreparedView& view, TileClass kind, const
 std::vector<TextureBinding> PicturePasses::texturesOf(const PreparedView& view) const {
     std::vector<TextureBinding> textures = buffers_.bindings();
     if (view.hasMetaballs) metaballs_->addBindings(textures);
+    if (!view.meshes.empty()) meshes_->addBindings(textures);
     return textures;
 }
 

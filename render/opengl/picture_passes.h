@@ -9,6 +9,7 @@
 
 #include "render/opengl/gl_objects.h"
 #include "render/opengl/marked_fragments.h"
+#include "render/opengl/mesh_passes.h"
 #include "render/opengl/metaball_passes.h"
 #include "render/opengl/shader_program.h"
 #include "render/opengl/view_buffers.h"
@@ -52,6 +53,7 @@ class PicturePasses {
     void uploadFrame(const PreparedView& view, glm::vec2 offset) const;
     Defines definesOf(const PreparedView& view, TileClass kind, const PassOutput& output) const;
     std::vector<TextureBinding> texturesOf(const PreparedView& view) const;
+    void uploadMeshes(const PreparedView& view);
 
     const Gl& gl_;
     PictureSize size_;
@@ -62,6 +64,7 @@ class PicturePasses {
     ShaderPrograms programs_;
     ViewBuffers buffers_;
     std::optional<MetaballPasses> metaballs_;
+    std::optional<MeshPasses> meshes_;
     MarkedFragments silhouettes_;
     std::optional<Target> samples_;  // pixels of silhouettes, side by side
     Target picture_;                 // sRGB pixels

@@ -10,7 +10,8 @@ namespace render {
 
 namespace {
 
-TileClass classOf(const PreparedView& view, std::size_t tile) {
+TileClass classOf(const PreparedView& view, std::span<const char> meshTiles, std::size_t tile) {
+    if (!meshTiles.empty() && meshTiles[tile] != 0) return TileClass::flats;
     if (!view.boxTiles.itemsOf(tile).empty() || !view.lines.tiles.itemsOf(tile).empty()) return TileClass::flats;
     const bool hasBalls =
         !view.sphereTiles.itemsOf(tile).empty() || (view.hasMetaballs && !view.metaballs.tiles.itemsOf(tile).empty());
@@ -31,7 +32,8 @@ TileClass classOf(const PreparedView& view, std::size_t tile) {
 }  // namespace
 
 bool occludesObstacles(const PreparedView& view) {
-    return view.hasOcclusion() && (!view.view->boxObstacles.empty() || !view.view->sphereObstacles.empty());
+    return view.hasOcclusion() &&
+           (!view.view->boxObstacles.empty() || !view.view->sphereObstacles.empty() || !view.meshes.empty());
 }
 
 ViewBuffers::ViewBuffers(const Gl& gl)
@@ -55,7 +57,7 @@ ViewBuffers::ViewBuffers(const Gl& gl)
       tiles_{TextureBuffer(gl, GL_R32I), TextureBuffer(gl, GL_R32I), TextureBuffer(gl, GL_R32I),
              TextureBuffer(gl, GL_R32I), TextureBuffer(gl, GL_R32I)} {}
 
-void ViewBuffers::upload(const PreparedView& view) {
+void ViewBuffers::upload(const PreparedView& view, std::span<const char> meshTiles) {
     uploadList(spheres_, view.viewSpheres, "the spheres");
     uploadList(sphereAttributes_, view.sphereAttributes, "the spheres' colors");
     uploadList(sphereBegins_, view.sphereTiles.begin, "the tiles");
@@ -65,17 +67,18 @@ void ViewBuffers::upload(const PreparedView& view) {
     tbb::parallel_for(std::size_t{0}, spheres.size(),
                       [&](std::size_t k) { spheres[k] = view.viewSpheres[view.sphereTiles.items[k]]; });
     uploadList(tileSpheres_, spheres, "the tiles' lists of spheres");
-    uploadTiles(view);
+    uploadTiles(view, meshTiles);
     uploadCasters(view);
     uploadBoxes(view);
     uploadLines(view);
     uploadSky(view);
 }
 
-void ViewBuffers::uploadTiles(const PreparedView& view) {
+void ViewBuffers::uploadTiles(const PreparedView& view, std::span<const char> meshTiles) {
     for (std::vector<std::int32_t>& tiles : tileIndices_) tiles.clear();
     for (std::size_t tile = 0; tile < view.sphereTiles.cellCount(); ++tile)
-        tileIndices_[static_cast<std::size_t>(classOf(view, tile))].push_back(static_cast<std::int32_t>(tile));
+        tileIndices_[static_cast<std::size_t>(classOf(view, meshTiles, tile))].push_back(
+            static_cast<std::int32_t>(tile));
     for (std::size_t kind = 0; kind < kTileClassCount; ++kind)
         uploadList(tiles_[kind], tileIndices_[kind], "the tiles");
 }

@@ -18,7 +18,7 @@ enum class TileClass : std::uint8_t {
     openGround,      ///< nothing but ground that nothing occludes
     occludedGround,  ///< nothing but ground
     objects,         ///< spheres and metaballs, and what is behind them
-    flats            ///< boxes and lines as well
+    flats            ///< boxes, meshes and lines as well
 };
 inline constexpr std::size_t kTileClassCount = 5;
 
@@ -26,8 +26,9 @@ class ViewBuffers {
  public:
     explicit ViewBuffers(const Gl& gl);
 
+    /// @param meshTiles  per tile: whether it may show a mesh; empty without meshes
     /// @throws OpenGlError if a list is too long for OpenGL, or memory runs out
-    void upload(const PreparedView& view);
+    void upload(const PreparedView& view, std::span<const char> meshTiles);
 
     /// The samplers of the shaders and their textures.
     std::vector<TextureBinding> bindings() const;
@@ -41,7 +42,7 @@ class ViewBuffers {
     }
 
  private:
-    void uploadTiles(const PreparedView& view);
+    void uploadTiles(const PreparedView& view, std::span<const char> meshTiles);
     void uploadCasters(const PreparedView& view);
     void uploadBoxes(const PreparedView& view);
     void uploadLines(const PreparedView& view);
@@ -55,7 +56,7 @@ class ViewBuffers {
     std::array<std::vector<std::int32_t>, kTileClassCount> tileIndices_;
 };
 
-/// Whether a view has box or sphere obstacles that ambient occlusion darkens.
+/// Whether a view has obstacles that ambient occlusion darkens.
 bool occludesObstacles(const PreparedView& view);
 
 }  // namespace render

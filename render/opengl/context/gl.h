@@ -38,6 +38,7 @@ namespace render {
     X(Disable, PFNGLDISABLEPROC)                                 \
     X(DrawArrays, PFNGLDRAWARRAYSPROC)                           \
     X(DrawBuffers, PFNGLDRAWBUFFERSPROC)                         \
+    X(DrawElements, PFNGLDRAWELEMENTSPROC)                       \
     X(Enable, PFNGLENABLEPROC)                                   \
     X(Finish, PFNGLFINISHPROC)                                   \
     X(FramebufferTexture, PFNGLFRAMEBUFFERTEXTUREPROC)           \

@@ -23,6 +23,7 @@ const float kFarDepth = 3.0e38;
 // What a ray hits, as one number: the index of a sphere, or one of these.
 const int kHitBackground = -1;
 const int kHitGround = -2;
+const int kHitMesh = 1 << 27;       // + index of the sample
 const int kHitBox = 1 << 28;        // + 16 * index of the box + face (0 +x, 1 -x, 2 +y, ..., 5 -z) + 8 inside the box
 const int kHitMetaballs = 1 << 29;  // + index of the sample
 

@@ -99,8 +99,16 @@ float boxCoverage(vec3 position, vec3 at, float pixelWidth, bool isFacing) {
 }
 #endif
 
+#if defined(METABALL_SHADOWS) || defined(MESH_SHADOWS)
+// Depth maps are 0 at the top of the metaballs or meshes, and 1 at their bottom and where there are none.
 #ifdef METABALL_SHADOWS
-uniform sampler2DShadow depthMap;  // 0 at the top of the metaballs, 1 at their bottom and where there are none
+uniform sampler2DShadow depthMap;
+#endif
+#ifdef MESH_SHADOWS
+uniform sampler2DShadow meshDepthMap;
+uniform vec4 meshMapGrid;  // as depthMapGrid
+uniform vec4 meshMapSize;  // as depthMapSize; w: 0
+#endif
 
 // The weights of six heights in a row, half a texel apart, in pairs: a quadratic B-spline, three texels wide, around a
 // point between the third and the fourth height. The sampler interpolates between the two of a pair.
@@ -117,22 +125,23 @@ void heightWeights(float behind, out vec3 weights, out vec3 parts) {
 
 // The share of heights above the point, which is raised off the surface by as much as the filter reaches sideways, so
 // that a slope does not shade itself.
-float metaballCoverage(vec3 position, vec3 normal) {
-    vec3 raised = position + 1.5 * depthMapGrid.z * normal;
-    vec2 at = (vec2(dot(raised, lightU.xyz), dot(raised, lightV.xyz)) - depthMapGrid.xy) / depthMapGrid.z;
-    float depth = min((depthMapGrid.w - dot(raised, toLight.xyz) - 0.5 * depthMapGrid.z) * depthMapSize.z, 1.0);
+// @param grid, size  of the map, as depthMapGrid and depthMapSize
+float mapCoverage(sampler2DShadow map, vec4 grid, vec4 size, vec3 position, vec3 normal) {
+    vec3 raised = position + 1.5 * grid.z * normal;
+    vec2 at = (vec2(dot(raised, lightU.xyz), dot(raised, lightV.xyz)) - grid.xy) / grid.z;
+    float depth = min((grid.w - dot(raised, toLight.xyz) - 0.5 * grid.z) * size.z, 1.0);
     vec2 fine = 2.0 * at - 0.5;
     vec2 corner = floor(fine);
     vec3 weightsU, weightsV, partsU, partsV;
     heightWeights(fine.x - corner.x, weightsU, partsU);
     heightWeights(fine.y - corner.y, weightsV, partsV);
-    vec3 u = (corner.x + vec3(-1.5, 0.5, 2.5) + partsU) / (2.0 * depthMapSize.x);
-    vec3 v = (corner.y + vec3(-1.5, 0.5, 2.5) + partsV) / (2.0 * depthMapSize.y);
+    vec3 u = (corner.x + vec3(-1.5, 0.5, 2.5) + partsU) / (2.0 * size.x);
+    vec3 v = (corner.y + vec3(-1.5, 0.5, 2.5) + partsV) / (2.0 * size.y);
     float coverage = 0.0;
     for (int row = 0; row < 3; ++row)
         for (int column = 0; column < 3; ++column)
-            coverage += weightsU[column] * weightsV[row] * textureLod(depthMap, vec3(u[column], v[row], depth), 0.0);
-    bool isInMap = all(greaterThanEqual(at, vec2(2.0))) && all(lessThan(at, depthMapSize.xy - 2.0));
+            coverage += weightsU[column] * weightsV[row] * textureLod(map, vec3(u[column], v[row], depth), 0.0);
+    bool isInMap = all(greaterThanEqual(at, vec2(2.0))) && all(lessThan(at, size.xy - 2.0));
     return isInMap ? coverage : 0.0;
 }
 #endif
@@ -151,7 +160,10 @@ float lightVisibility(vec3 position, vec3 normal, float depth) {
     coverage += boxCoverage(position, at, pixelWidth, isFacing);
 #endif
 #ifdef METABALL_SHADOWS
-    coverage += metaballCoverage(position, normal);
+    coverage += mapCoverage(depthMap, depthMapGrid, depthMapSize, position, normal);
+#endif
+#ifdef MESH_SHADOWS
+    coverage += mapCoverage(meshDepthMap, meshMapGrid, meshMapSize, position, normal);
 #endif
     return isFacing ? max(1.0 - coverage, 0.0) : 0.0;
 }

@@ -4,7 +4,7 @@
 const float kNearer = 0.999;
 
 bool isFlat(int id) {
-    return id < 0 || (id >= kHitBox && id < kHitMetaballs);
+    return id < 0 || (id >= kHitMesh && id < kHitMetaballs);
 }
 
 // Share of the pixel's samples at which neither a sphere nor metaballs hide a line at this depth.
@@ -40,6 +40,9 @@ vec4 lineCoverage(SampleHits hits, vec2 pixel) {
         float coverage = clamp(0.5 * depths.z + 0.5 - distance(pixel, nearest), 0.0, min(depths.z, 1.0));
         vec2 at = imagePoint(nearest);
         float surfaceDepth = flatHits(at.x, at.y).depth;
+#ifdef MESHES
+        surfaceDepth = min(surfaceDepth, meshDepthAt(nearest));
+#endif
         float share = surfaceDepth < depth * kNearer ? 0.0 : coverage * shareInFront(hits, depth);
         over = over * (1.0 - share) + share * vec4(color, 1.0);
     }

@@ -37,6 +37,12 @@ uniform samplerBuffer skyGrid;
 #define SAMPLE_HITS
 #include "hits.glsl"
 
+#if SAMPLES != 1
+// Offsets of the samples from the middle of the pixel: kFourSamples of camera_frame.h.
+const vec4 kOffsetX = vec4(-0.125, 0.375, -0.375, 0.125);
+const vec4 kOffsetY = vec4(-0.375, -0.125, 0.125, 0.375);
+#endif
+
 #include "packing.glsl"
 #include "light.glsl"
 #include "shading.glsl"
@@ -48,6 +54,9 @@ uniform samplerBuffer skyGrid;
 #define smallestRadius metaballs.z
 #endif
 #include "surface.glsl"
+#endif
+#ifdef MESHES
+#include "meshes.glsl"
 #endif
 #include "points.glsl"
 #include "output.glsl"
@@ -82,6 +91,9 @@ void addMetaballs(inout SampleHits hits, REAL x, REAL y) {
 SampleHits hitsOf(vec2 middle) {
     vec2 at = imagePoint(middle + sampleOffset.xy);
     SampleHits hits = flatHits(at.x, at.y);
+#ifdef MESHES
+    addMeshes(hits);
+#endif
 #ifdef METABALLS
     addMetaballs(hits, at.x, at.y);
 #endif
@@ -95,14 +107,13 @@ vec3 colorOfSamples(SampleHits hits, vec2 middle) {
     return clamp(colorOf(hits.id, middle + sampleOffset.xy), 0.0, 1.0);
 }
 #else
-// Offsets of the samples from the middle of the pixel: kFourSamples of camera_frame.h.
-const vec4 kOffsetX = vec4(-0.125, 0.375, -0.375, 0.125);
-const vec4 kOffsetY = vec4(-0.375, -0.125, 0.125, 0.375);
-
 SampleHits hitsOf(vec2 middle) {
     vec4 x = ((middle.x + kOffsetX) * image.x - 1.0) * image.z;
     vec4 y = (1.0 - (middle.y + kOffsetY) * image.y) * image.w;
     SampleHits hits = flatHits(x, y);
+#ifdef MESHES
+    addMeshes(hits);
+#endif
 #ifdef METABALLS
     addMetaballs(hits, x, y);
 #endif

@@ -79,7 +79,10 @@ Point pointOf(int id, Ray ray) {
     if (id == kHitGround) setGround(ray, at);
 #endif
 #ifdef SPHERES
-    if (id >= 0 && id < kHitBox) setSphere(ray, id, at);
+    if (id >= 0 && id < kHitMesh) setSphere(ray, id, at);
+#endif
+#ifdef MESHES
+    if (id >= kHitMesh && id < kHitBox) setMesh(id - kHitMesh, at);
 #endif
 #ifdef BOXES
     if (id >= kHitBox && id < kHitMetaballs) setBox(ray, id - kHitBox, at);

@@ -1,0 +1,2 @@
+// The depth map of the mesh obstacles has depths only.
+void main() {}
