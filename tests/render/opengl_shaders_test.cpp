@@ -20,6 +20,7 @@
 #include "render/picture/system_error.h"
 #include "tests/render/pictures.h"
 #include "tests/render/smaller_limits.h"
+#include "tests/render/solid_meshes.h"
 
 using namespace pictures;
 using render::Quality;
@@ -84,6 +85,7 @@ std::vector<Term> terms() {
              v.boxObstacles.push_back({{-2.0F, 0.0F, -2.0F}, {-1.0F, 1.0F, -1.0F}});
          },
          {"BOXES"}},
+        {[](View& v) { v.meshObstacles.push_back({meshBox(glm::vec3(-0.1F), glm::vec3(0.1F))}); }, {"MESHES"}},
     };
 }
 
@@ -159,11 +161,12 @@ TEST_CASE("Terms of the whole picture, and tiles that show less, have their own 
     for (const Term& term : terms()) term.add(view);
     CHECK(definesOf(view, TileClass::background) == render::Defines{"PERSPECTIVE"});
     CHECK(definesOf(view, TileClass::openGround) == render::Defines{"EXPOSURE", "GROUND", "PERSPECTIVE", "SOFT"});
-    CHECK(definesOf(view, TileClass::occludedGround) == render::Defines{"BOX_SHADOWS", "EXPOSURE", "GROUND",
-                                                                        "GROUND_OCCLUSION", "OCCLUSION", "PERSPECTIVE",
-                                                                        "SHADOWS", "SOFT", "SPHERE_SHADOWS"});
+    CHECK(definesOf(view, TileClass::occludedGround) ==
+          render::Defines{"BOX_SHADOWS", "EXPOSURE", "GROUND", "GROUND_OCCLUSION", "MESH_SHADOWS", "OCCLUSION",
+                          "PERSPECTIVE", "SHADOWS", "SOFT", "SPHERE_SHADOWS"});
     const render::Defines objects = definesOf(view, TileClass::objects);
-    for (const char* flat : {"BOXES", "LINES"}) CHECK(std::find(objects.begin(), objects.end(), flat) == objects.end());
+    for (const char* flat : {"BOXES", "LINES", "MESHES"})
+        CHECK(std::find(objects.begin(), objects.end(), flat) == objects.end());
 }
 
 TEST_CASE("OpenGL with few varyings draws the same picture", "[opengl]") {
