@@ -66,8 +66,8 @@ struct StepCache {
     std::vector<Vec3> meanAccelerations;
     double lastStep = 0.0;
 
-    /// Change of each velocity by the fields before this step, m/s, by which velocity Verlet predicts their change after
-    /// it; empty where no field acts.
+    /// Change of each velocity by the fields before this step, m/s, by which velocity Verlet predicts their change
+    /// after it; empty where no field acts.
     Scratch<std::vector<Vec3>> fieldChanges;
     Scratch<std::vector<Vec3>> predictedVelocities;  ///< velocities from which velocity Verlet computes damping, m/s
     Scratch<ImplicitScratch> implicit;

@@ -7,8 +7,8 @@
 #include <glm/glm.hpp>
 
 #include "render/picture/camera_frame.h"
-#include "render/picture/view.h"
 #include "render/picture/drawn_meshes.h"
+#include "render/picture/view.h"
 #include "render/prepare/light_space.h"
 #include "render/prepare/skin.h"
 

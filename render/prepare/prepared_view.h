@@ -8,10 +8,10 @@
 
 #include "render/picture/camera_frame.h"
 #include "render/picture/draw_times.h"
+#include "render/picture/drawn_meshes.h"
 #include "render/picture/view.h"
 #include "render/prepare/ambient_occlusion.h"
 #include "render/prepare/depth_map_grid.h"
-#include "render/picture/drawn_meshes.h"
 #include "render/prepare/drawn_spheres.h"
 #include "render/prepare/light_space.h"
 #include "render/prepare/metaball_scene.h"

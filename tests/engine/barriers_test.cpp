@@ -31,7 +31,8 @@ Obstacles all(std::vector<Obstacle> shapes, double friction = 0.0) {
 /// Height of a point over the surface that it is furthest behind, m.
 double heightOf(const Obstacles& obstacles, const Vec3& point) {
     double height = std::numeric_limits<double>::infinity();
-    forEachSurface(obstacles, point, 0.0, kFar, [&](const Surface& surface) { height = std::min(height, surface.height); });
+    forEachSurface(obstacles, point, 0.0, kFar,
+                   [&](const Surface& surface) { height = std::min(height, surface.height); });
     return height;
 }
 

@@ -142,7 +142,8 @@ TEST_CASE("What a particle touches is every surface below its radius, to the las
         forEachSurface(obstacles, point, 0.0, kFar, [&](const Surface& surface) {
             if (surface.height < radius) near.push_back(surface.height);
         });
-        forEachTouched(obstacles, point, 0.0, radius, [&](const Surface& surface) { visited.push_back(surface.height); });
+        forEachTouched(obstacles, point, 0.0, radius,
+                       [&](const Surface& surface) { visited.push_back(surface.height); });
         CHECK(visited == near);
         touched += near.size();
         untouched += 9 - near.size();

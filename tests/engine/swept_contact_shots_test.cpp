@@ -40,7 +40,8 @@ Vec3 directionOf(const Target& target, std::uint64_t number) {
 /// Distance of a point from the obstacle, negative inside, m.
 double heightOver(const Obstacles& obstacles, const Vec3& point) {
     double height = std::numeric_limits<double>::infinity();
-    forEachSurface(obstacles, point, 0.0, kFar, [&](const Surface& surface) { height = std::min(height, surface.height); });
+    forEachSurface(obstacles, point, 0.0, kFar,
+                   [&](const Surface& surface) { height = std::min(height, surface.height); });
     return height;
 }
 

@@ -13,8 +13,8 @@
 #include "render/cpu/metaballs/metaball_hits.h"
 #include "render/cpu/raster/primary_hits.h"
 #include "render/picture/camera_frame.h"
-#include "render/picture/view.h"
 #include "render/picture/drawn_meshes.h"
+#include "render/picture/view.h"
 #include "render/prepare/drawn_spheres.h"
 #include "render/prepare/tiles.h"
 
