@@ -126,10 +126,12 @@ void heightWeights(float behind, out vec3 weights, out vec3 parts) {
 // The share of heights above the point, which is raised off the surface by as much as the filter reaches sideways, so
 // that a slope does not shade itself.
 // @param grid, size  of the map, as depthMapGrid and depthMapSize
-float mapCoverage(sampler2DShadow map, vec4 grid, vec4 size, vec3 position, vec3 normal) {
-    vec3 raised = position + 1.5 * grid.z * normal;
+// @param lift        distance along the normal by which the point is raised
+// @param above       distance toward the light by which it is raised then
+float mapCoverage(sampler2DShadow map, vec4 grid, vec4 size, vec3 position, vec3 normal, float lift, float above) {
+    vec3 raised = position + lift * normal;
     vec2 at = (vec2(dot(raised, lightU.xyz), dot(raised, lightV.xyz)) - grid.xy) / grid.z;
-    float depth = min((grid.w - dot(raised, toLight.xyz) - 0.5 * grid.z) * size.z, 1.0);
+    float depth = min((grid.w - dot(raised, toLight.xyz) - above) * size.z, 1.0);
     vec2 fine = 2.0 * at - 0.5;
     vec2 corner = floor(fine);
     vec3 weightsU, weightsV, partsU, partsV;
@@ -160,10 +162,15 @@ float lightVisibility(vec3 position, vec3 normal, float depth) {
     coverage += boxCoverage(position, at, pixelWidth, isFacing);
 #endif
 #ifdef METABALL_SHADOWS
-    coverage += mapCoverage(depthMap, depthMapGrid, depthMapSize, position, normal);
+    coverage += mapCoverage(depthMap, depthMapGrid, depthMapSize, position, normal, 1.5 * depthMapGrid.z,
+                            0.5 * depthMapGrid.z);
 #endif
 #ifdef MESH_SHADOWS
-    coverage += mapCoverage(meshDepthMap, meshMapGrid, meshMapSize, position, normal);
+    // Above the surfaces of meshes that light does not reach, which alone are in their map, the point need not be
+    // farther than a plane rises sideways.
+    float cosine = dot(normal, toLight.xyz);
+    float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
+    coverage += mapCoverage(meshDepthMap, meshMapGrid, meshMapSize, position, normal, 1.5 * meshMapGrid.z * sine, 0.0);
 #endif
     return isFacing ? max(1.0 - coverage, 0.0) : 0.0;
 }
