@@ -183,6 +183,31 @@ TEST_CASE("A convex mesh does not shade itself", "[meshes]") {
     }
 }
 
+TEST_CASE("A thin plate of narrow triangles does not shade itself", "[meshes]") {
+    const glm::dvec2 up(0.0, 1.0);
+    const glm::dvec2 outward(1.0, 0.0);
+    const auto plate = turned({{{0.0, -0.02}, -up},
+                               {{0.9, -0.02}, -up},
+                               {{0.9, -0.02}, outward},
+                               {{0.9, 0.02}, outward},
+                               {{0.9, 0.02}, up},
+                               {{0.0, 0.02}, up}},
+                              false, 200);
+    for (const float softness : {0.0F, 0.5F}) {
+        render::View view = cloud(1);
+        view.ground.reset();
+        view.particles[0].center = {0.0F, -9.0F, 0.0F};
+        view.light.softness = softness;
+        view.light.toLight = glm::normalize(glm::vec3(-0.55F, 0.75F, 0.4F));
+        view.meshObstacles.push_back({plate, glm::mat3(1.0F), {-0.3F, 0.9F, 0.0F}});
+        const render::Image lit = drawn(view, kSize, Quality::normal);
+        view.light.shadows = true;
+        const Difference difference = compare(drawn(view, kSize, Quality::normal), lit, 2);
+        INFO("softness " << softness << ": " << difference);
+        CHECK(difference.share == 0.0);
+    }
+}
+
 TEST_CASE("Lines run along faces of meshes as along those of boxes", "[meshes]") {
     render::View view = cloud(0);
     const glm::vec3 low{-0.5F, 0.21F, 1.0F};

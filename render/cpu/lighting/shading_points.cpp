@@ -162,9 +162,10 @@ Vec3 cross(const Vec3& a, const Vec3& b) {
 }
 
 /// Weights of the second and the third corner of a triangle where a ray meets it, or at the triangle's border where the
-/// ray passes by (Moeller and Trumbore 1997).
+/// ray passes by, and the place on the ray where it meets the triangle's plane (Moeller and Trumbore 1997).
 struct CornerWeights {
     V second, third;
+    V along;  ///< in lengths of the ray's direction
 
     CornerWeights(const Ray& ray, const Vec3& corner, const Vec3& toSecond, const Vec3& toThird) {
         const V zero = splat(0.0F);
@@ -173,8 +174,10 @@ struct CornerWeights {
         const V volume = dot(toSecond, across);
         const V inverse = one / hn::IfThenElse(volume == zero, splat(1.0e-30F), volume);
         const Vec3 off = ray.origin - corner;
+        const Vec3 aside = cross(off, toSecond);
+        along = dot(toThird, aside) * inverse;
         second = clamp(dot(off, across) * inverse, 0.0F, 1.0F);
-        third = clamp(dot(ray.direction, cross(off, toSecond)) * inverse, 0.0F, 1.0F);
+        third = clamp(dot(ray.direction, aside) * inverse, 0.0F, 1.0F);
         const V scale = one / hn::Max(one, second + third);
         second = second * scale;
         third = third * scale;
@@ -188,8 +191,16 @@ void addMeshes(const ShadingGeometry& geometry, const HitRays& hits, M where, Po
     const Vec3 toSecond = gatherVec3(meshes.positions, triangle.y) - corner;
     const Vec3 toThird = gatherVec3(meshes.positions, triangle.z) - corner;
     const CornerWeights weights(hits.ray, corner, toSecond, toThird);
-    const Vec3 point = corner + toSecond * weights.second + toThird * weights.third;
-    const V depth = hn::Max(dot(point, splat(geometry.frame.forward)), splat(0.0F));
+    // A ray through the mean of samples may pass by the triangle, and even run parallel to it: its depth is that of the
+    // plane, but no further than the corners. At the border of a narrow triangle it would be that of another place.
+    const Vec3 forward = splat(geometry.frame.forward);
+    const V first = dot(corner, forward);
+    const V second = first + dot(toSecond, forward);
+    const V third = first + dot(toThird, forward);
+    const V ofPlane = dot(pointOnRay(hits.ray.origin, weights.along, hits.ray.direction), forward);
+    const V depth = hn::Max(
+        hn::Min(hn::Max(ofPlane, hn::Min(first, hn::Min(second, third))), hn::Max(first, hn::Max(second, third))),
+        splat(0.0F));
     const Vec3 mean = gatherVec3(meshes.normals, triangle.x) * (splat(1.0F) - weights.second - weights.third) +
                       gatherVec3(meshes.normals, triangle.y) * weights.second +
                       gatherVec3(meshes.normals, triangle.z) * weights.third;
