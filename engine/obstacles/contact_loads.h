@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <mutex>
 #include <vector>
 
 #include "engine/core/vec3.h"
@@ -19,5 +20,27 @@ struct ContactLoad {
 
 /// A list of loads that contacts are recorded in.
 using ContactLoads = std::vector<ContactLoad>;
+
+/// A list of loads that several threads add to. It stays with its object: a copy has none.
+class SharedLoads {
+ public:
+    SharedLoads() = default;
+    SharedLoads(const SharedLoads& /*other*/) {}
+    SharedLoads& operator=(const SharedLoads& /*other*/) { return *this; }
+    ~SharedLoads() = default;
+
+    void add(const ContactLoads& loads) {
+        if (loads.empty()) return;
+        const std::lock_guard lock(mutex_);
+        list_.insert(list_.end(), loads.begin(), loads.end());
+    }
+
+    /// The loads in no particular order; for one thread at a time.
+    ContactLoads& list() { return list_; }
+
+ private:
+    std::mutex mutex_;
+    ContactLoads list_;
+};
 
 }  // namespace engine

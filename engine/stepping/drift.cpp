@@ -90,9 +90,9 @@ Vec3 chooseSweptContact(Simulation& simulation, std::size_t p, double h) {
     if (h * speed <= cache.clearance[p]) return Vec3::Zero();
     const Probe particle = probeOf(simulation, p, simulation.time);
     const bool isExplicit = isVerlet(simulation.stepper);
-    ContactLoads* const loads = isExplicit ? loadsOfThread(simulation) : nullptr;
-    const std::size_t loadsBefore = loads == nullptr ? 0 : loads->size();
-    const Contacts contacts = contactsInStep(obstacles, particle, h, isExplicit, loads);
+    LoadRecorder recorder(simulation);
+    const Contacts contacts =
+        contactsInStep(obstacles, particle, h, isExplicit, isExplicit ? recorder.list() : nullptr);
     cache.clearance[p] = contacts.gap - kMargin * particle.radius;
     // The contact of a particle without neighbors is swept, which means integrated along its path by small steps: only
     // the obstacle acts on it, so that this is nearly exact. With neighbors, the contact is coupled to the forces in
@@ -103,7 +103,7 @@ Vec3 chooseSweptContact(Simulation& simulation, std::size_t p, double h) {
     };
     if (!contacts.needsSweep && !(contacts.mayTouch && hasNoNeighbor())) return contacts.force;
     cache.swept[p] = 1;
-    if (loads != nullptr) loads->resize(loadsBefore);
+    recorder.clear();
     return Vec3::Zero();
 }
 
@@ -122,8 +122,8 @@ bool hadFreePath(const Simulation& simulation, std::size_t p, const Vec3& start)
 
 void driftSwept(Simulation& simulation, std::size_t p, double from, double h) {
     Probe particle = probeOf(simulation, p, from);
-    countHeld(simulation, p,
-              advanceThroughContacts(simulation.setup.obstacles, particle, h, loadsOfThread(simulation)));
+    LoadRecorder recorder(simulation);
+    countHeld(simulation, p, advanceThroughContacts(simulation.setup.obstacles, particle, h, recorder.list()));
     simulation.particles.position[p] = particle.position;
     simulation.particles.velocity[p] = particle.velocity;
     simulation.cache->clearance[p] = kUnknown;
@@ -131,8 +131,9 @@ void driftSwept(Simulation& simulation, std::size_t p, double from, double h) {
 
 void driftToBarriers(Simulation& simulation, std::size_t p, double from, double h) {
     Probe particle = probeOf(simulation, p, from);
+    LoadRecorder recorder(simulation);
     countHeld(simulation, p,
-              moveAmongBarriers(simulation.setup.obstacles, particle, h, Arrival::slides, loadsOfThread(simulation)));
+              moveAmongBarriers(simulation.setup.obstacles, particle, h, Arrival::slides, recorder.list()));
     simulation.particles.position[p] = particle.position;
     simulation.particles.velocity[p] = particle.velocity;
 }
@@ -147,7 +148,8 @@ ContactSums resolvedContacts(Simulation& simulation, std::size_t p, const Vec3& 
     const Obstacles& obstacles = simulation.setup.obstacles;
     if (obstacles.shapes.empty() || isClearOfObstacles(simulation, p)) return {};
     const bool isSwept = simulation.cache->swept[p] != 0;
-    ContactLoads* const loads = isSwept || seconds == 0.0 ? nullptr : loadsOfThread(simulation);
+    LoadRecorder recorder(simulation);
+    ContactLoads* const loads = isSwept || seconds == 0.0 ? nullptr : recorder.list();
     ContactSums contacts = sumContacts(obstacles, probeOf(simulation, p, velocity, time), loads, seconds);
     if (isSwept) contacts.force = Vec3::Zero();
     return contacts;
@@ -157,7 +159,8 @@ void recordHalfKick(Simulation& simulation, std::size_t p, const Vec3& velocity,
                     double h) {
     const Obstacles& obstacles = simulation.setup.obstacles;
     if (simulation.cache->swept[p] || isClearOfObstacles(simulation, p)) return;
-    ContactLoads& loads = *loadsOfThread(simulation);
+    LoadRecorder recorder(simulation);
+    ContactLoads& loads = *recorder.list();
     const Probe probe = probeOf(simulation, p, velocity, time);
     forEachTouched(obstacles, probe.position, time, probe.radius, [&](const Surface& surface) {
         if (!isRecorded(obstacles, surface.obstacle)) return;

@@ -23,8 +23,11 @@ std::array<double, kNumbers> numbersOf(const ContactLoad& load, const Vec3& pivo
 
 }  // namespace
 
-ContactLoads* loadsOfThread(Simulation& simulation) {
-    return simulation.setup.obstacles.areRecorded.empty() ? nullptr : &simulation.cache->threadLoads.local();
+LoadRecorder::LoadRecorder(Simulation& simulation)
+    : shared_(simulation.cache->loads), isRecording_(!simulation.setup.obstacles.areRecorded.empty()) {}
+
+LoadRecorder::~LoadRecorder() {
+    shared_.add(loads_);
 }
 
 void addUpLoads(Simulation& simulation) {
@@ -33,14 +36,12 @@ void addUpLoads(Simulation& simulation) {
     StepCache& cache = *simulation.cache;
     cache.stepLoads.resize(obstacles.shapes.size());
     std::vector<std::array<ExactSum, kNumbers>> sums(obstacles.shapes.size());
-    for (ContactLoads& loads : cache.threadLoads) {
-        for (const ContactLoad& load : loads) {
-            const Vec3 pivot = pivotAt(obstacles, load.obstacle, load.time);
-            const std::array<double, kNumbers> numbers = numbersOf(load, pivot);
-            for (std::size_t k = 0; k < kNumbers; ++k) sums[load.obstacle][k].add(numbers[k]);
-        }
-        loads.clear();
+    for (const ContactLoad& load : cache.loads.list()) {
+        const Vec3 pivot = pivotAt(obstacles, load.obstacle, load.time);
+        const std::array<double, kNumbers> numbers = numbersOf(load, pivot);
+        for (std::size_t k = 0; k < kNumbers; ++k) sums[load.obstacle][k].add(numbers[k]);
     }
+    cache.loads.list().clear();
     for (std::size_t k = 0; k < sums.size(); ++k) {
         if (!isRecorded(obstacles, k)) continue;
         const std::array<double, kNumbers> sum = roundedOverRanks(*simulation.ranks, sums[k]);

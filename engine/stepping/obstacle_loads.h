@@ -6,8 +6,24 @@
 
 namespace engine {
 
-/// The list in which contacts on this thread are recorded; null where no load of any obstacle is.
-ContactLoads* loadsOfThread(Simulation& simulation);
+/// Records loads of contacts, and passes them on when it is destroyed.
+class LoadRecorder {
+ public:
+    explicit LoadRecorder(Simulation& simulation);
+    LoadRecorder(const LoadRecorder&) = delete;
+    LoadRecorder& operator=(const LoadRecorder&) = delete;
+    ~LoadRecorder();
+
+    /// The list in which contacts are recorded; null where the loads of no obstacle are.
+    ContactLoads* list() { return isRecording_ ? &loads_ : nullptr; }
+    /// Forgets what was recorded.
+    void clear() { loads_.clear(); }
+
+ private:
+    SharedLoads& shared_;
+    bool isRecording_;
+    ContactLoads loads_;
+};
 
 /// Adds what was recorded since the last call to the loads of the present step, and its work to that of all steps.
 void addUpLoads(Simulation& simulation);

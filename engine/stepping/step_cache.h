@@ -4,8 +4,6 @@
 // list.
 #pragma once
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -52,9 +50,9 @@ struct StepCache {
     /// obstacles. The next search for such a particle begins with it.
     Scratch<std::vector<std::uint32_t>> cachedNeighbors;
 
-    double surfaceSpeed = 0.0;  ///< upper bound on the speed of obstacles' surfaces in this step, m/s
-    Scratch<tbb::enumerable_thread_specific<ContactLoads>> threadLoads;  ///< recorded by each thread in this step
-    std::vector<ObstacleLoad> stepLoads;                                 ///< of the step that is not yet accepted
+    double surfaceSpeed = 0.0;            ///< upper bound on the speed of obstacles' surfaces in this step, m/s
+    SharedLoads loads;                    ///< recorded in this step and not yet added up
+    std::vector<ObstacleLoad> stepLoads;  ///< of the step that is not yet accepted
     /// Work on the particles by what is not part of their energy, such as obstacles in motion, since an arbitrary
     /// moment, J: the audit compares its change with that of the energy.
     double work = 0.0;

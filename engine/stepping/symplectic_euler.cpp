@@ -22,7 +22,8 @@ namespace {
 bool stepAmongScaledWalls(Simulation& simulation, double h, double decay, std::size_t begin, std::size_t end) {
     const Setup& setup = simulation.setup;
     Particles& particles = simulation.particles;
-    ContactLoads* const loads = loadsOfThread(simulation);
+    LoadRecorder recorder(simulation);
+    ContactLoads* const loads = recorder.list();
     bool areValid = true;
     for (std::size_t p = begin; p < end; ++p) {
         Probe particle = probeOf(setup.materials, particles, p, particles.velocity[p], simulation.time);
