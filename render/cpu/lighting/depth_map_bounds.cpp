@@ -87,8 +87,7 @@ DepthMap sizedDepthMap(const DepthMapGrid& grid, DepthMap old) {
 
 void findHeightBounds(DepthMap& map) {
     const tbb::blocked_range<std::size_t> rows(2, static_cast<std::size_t>(map.rows) - 2, kTexelRows);
-    tbb::parallel_for(
-        rows, [&](const auto& range) { findOfBand(map, range.begin(), range.end()); }, tbb::simple_partitioner());
+    tbb::parallel_for(rows, [&](const auto& range) { findOfBand(map, range.begin(), range.end()); });
 }
 
 }  // namespace render
