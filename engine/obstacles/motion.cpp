@@ -1,47 +1,23 @@
-// Poses of obstacles in motion.
+// Poses of what moves.
 #include "engine/obstacles/motion.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "engine/core/monotone_cubic.h"
-#include "engine/core/sine.h"
+#include "engine/core/rotation.h"
 
 namespace engine {
 namespace {
 
-/// A turn about one of the axes of the scene by an angle (rad).
-Matrix3 turnAboutAxis(int axis, double angle) {
-    const auto [sine, cosine] = sineAndCosine(angle);
-    const int next = (axis + 1) % 3;
-    const int last = (axis + 2) % 3;
-    Matrix3 turn = Matrix3::Identity();
-    turn(next, next) = cosine;
-    turn(next, last) = -sine;
-    turn(last, next) = sine;
-    turn(last, last) = cosine;
-    return turn;
-}
+constexpr double kDegree = std::numbers::pi / 180.0;  // rad
 
-/// A turn about an axis, a unit vector, by an angle (rad).
-Matrix3 turnAbout(const Vec3& axis, double angle) {
-    const auto [sine, cosine] = sineAndCosine(angle);
-    Matrix3 cross;
-    cross << 0.0, -axis.z(), axis.y(), axis.z(), 0.0, -axis.x(), -axis.y(), axis.x(), 0.0;
-    return cosine * Matrix3::Identity() + sine * cross + (1.0 - cosine) * (axis * axis.transpose());
-}
-
-/// The turn by three angles, about x first.
-Matrix3 turnBy(const Vec3& angles) {
-    return turnAboutAxis(2, angles.z()) * turnAboutAxis(1, angles.y()) * turnAboutAxis(0, angles.x());
-}
-
-/// Angular velocity (rad/s) of turnBy() of angles that change at these rates (rad/s).
+/// Angular velocity (rad/s) of rotationOfDegrees() of angles that change at these rates (degrees/s).
 Vec3 spinOf(const Vec3& angles, const Vec3& rates) {
-    const Matrix3 aboutZ = turnAboutAxis(2, angles.z());
-    const Matrix3 aboutY = turnAboutAxis(1, angles.y());
-    return rates.z() * Vec3::UnitZ() + aboutZ * (rates.y() * Vec3::UnitY() + aboutY * (rates.x() * Vec3::UnitX()));
+    const Vec3 aboutXAndY = rates.y() * Vec3::UnitY() + rotationAboutAxis(1, angles.y()) * (rates.x() * Vec3::UnitX());
+    return kDegree * (rates.z() * Vec3::UnitZ() + rotationAboutAxis(2, angles.z()) * aboutXAndY);
 }
 
 std::array<double, 6> numbersOf(const PoseKey& key) {
@@ -54,7 +30,7 @@ Pose poseOnPath(const Motion& motion, double time) {
     const PathPoint<6> point = pathAt<6>(motion.keys.size(), time, timeOf, valuesOf);
     const auto& [values, slopes] = point;
     const Vec3 angles(values[3], values[4], values[5]);
-    return {.rotation = turnBy(angles),
+    return {.rotation = rotationOfDegrees(angles),
             .pivot = motion.pivot,
             .position = {values[0], values[1], values[2]},
             .velocity = {slopes[0], slopes[1], slopes[2]},
@@ -70,13 +46,13 @@ double speedAt(double extent, double ofPivot, double angular) {
 
 Pose poseAt(const Motion& motion, double time) {
     if (!motion.keys.empty()) return poseOnPath(motion, time);
-    Pose pose{.rotation = turnBy(motion.angles),
+    Pose pose{.rotation = rotationOfDegrees(motion.angles),
               .pivot = motion.pivot,
               .position = motion.pivot + time * motion.velocity,
               .velocity = motion.velocity,
               .spin = motion.spin};
     const double angular = std::sqrt(squaredLength(motion.spin));
-    if (angular > 0.0) pose.rotation = turnAbout(motion.spin / angular, angular * time) * pose.rotation;
+    if (angular > 0.0) pose.rotation = rotationAbout(motion.spin / angular, angular * time) * pose.rotation;
     return pose;
 }
 
@@ -91,7 +67,7 @@ double fastestBetween(const Motion& motion, double from, double to, double exten
         // A monotone cubic is at most three times as steep as the line between its keys.
         const double steepest = 3.0 / (b.time - a.time);
         const double ofPivot = steepest * std::sqrt(squaredLength(b.position - a.position));
-        const double angular = steepest * (b.angles - a.angles).cwiseAbs().sum();
+        const double angular = kDegree * steepest * (b.angles - a.angles).cwiseAbs().sum();
         fastest = std::max(fastest, speedAt(extent, ofPivot, angular));
     }
     return fastest;

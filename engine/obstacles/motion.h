@@ -1,4 +1,5 @@
-// How an obstacle moves: its pose as a function of time alone, so that a resumed run and every rank see the same.
+// How an obstacle or an emitter moves: its pose as a function of time alone, so that a resumed run and every rank see
+// the same.
 #pragma once
 
 #include <limits>
@@ -8,7 +9,7 @@
 
 namespace engine {
 
-/// Where an obstacle is at a moment, and how it moves there.
+/// Where an object is at a moment, and how it moves there.
 struct Pose {
     Matrix3 rotation = Matrix3::Identity();  ///< from the shape's coordinates to those of the scene
     Vec3 pivot = Vec3::Zero();               ///< the point that it turns about, in the shape's coordinates, m
@@ -20,27 +21,27 @@ struct Pose {
     Vec3 toShape(const Vec3& point) const { return pivot + rotation.transpose() * (point - position); }
     /// A point of the shape in the scene, m.
     Vec3 toScene(const Vec3& point) const { return position + rotation * (point - pivot); }
-    /// Velocity of the obstacle's material at a point of the scene, m/s.
+    /// Velocity of the object's material at a point of the scene, m/s.
     Vec3 velocityAt(const Vec3& point) const { return velocity + spin.cross(point - position); }
 };
 
-/// A point in time of a path that an obstacle glides through.
+/// A point in time of a path that an object glides along.
 struct PoseKey {
     double time = 0.0;             ///< s
     Vec3 position = Vec3::Zero();  ///< of the pivot, m
-    Vec3 angles = Vec3::Zero();    ///< turns about the x, then the y, then the z axis, rad
+    Vec3 angles = Vec3::Zero();    ///< turns about the x, then the y, then the z axis, degrees
 };
 
-/// How an obstacle moves. The shape is given where the pivot would be at rest and nothing was turned.
+/// How an object moves. Its shape is given where the pivot would be at rest and nothing was turned.
 struct Motion {
-    Vec3 pivot = Vec3::Zero();     ///< m
-    Vec3 angles = Vec3::Zero();    ///< turns about the x, then the y, then the z axis at time zero, rad; without keys
+    Vec3 pivot = Vec3::Zero();   ///< m
+    Vec3 angles = Vec3::Zero();  ///< turns about the x, then the y, then the z axis at time zero, degrees; without keys
     Vec3 velocity = Vec3::Zero();  ///< m/s; without keys
     Vec3 spin = Vec3::Zero();      ///< angular velocity about an axis through the pivot, rad/s; without keys
     /// Path of the pivot and of the angles, in increasing order of time. Before the first and after the last key the
-    /// obstacle is at rest there. In between, all six numbers follow monotone cubics; see core/monotone_cubic.h.
+    /// object is at rest there. In between, all six numbers follow monotone cubics; see core/monotone_cubic.h.
     std::vector<PoseKey> keys = {};
-    double until = std::numeric_limits<double>::infinity();  ///< time at which the obstacle is taken away, s
+    double until = std::numeric_limits<double>::infinity();  ///< time at which it is taken away, s
 
     /// Whether the shape is there for ever, where it is given.
     bool isIdentity() const { return isAtRest() && angles == Vec3::Zero(); }
@@ -55,7 +56,7 @@ struct Motion {
 /// on every machine.
 Pose poseAt(const Motion& motion, double time);
 
-/// An upper bound on the speed of any point of an obstacle within a distance `extent` (m) of its pivot, between two
+/// An upper bound on the speed of any point of an object within a distance `extent` (m) of its pivot, between two
 /// times (s), m/s.
 double fastestBetween(const Motion& motion, double from, double to, double extent);
 

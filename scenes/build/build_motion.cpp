@@ -9,7 +9,6 @@ namespace {
 
 using engine::Vec3;
 
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 constexpr double kRadiansPerTurn = 2.0 * std::numbers::pi;
 
 /// The keys of a path; what the first of them leave out is as it would be at rest.
@@ -18,7 +17,7 @@ std::vector<engine::PoseKey> pathFrom(const std::vector<Section>& keys, const Ve
     for (const Section& key : keys)
         path.push_back({.time = key.number("time"),
                         .position = key.has("position") ? key.vector("position") : pivot,
-                        .angles = key.has("rotation") ? Vec3(kRadiansPerDegree * key.vector("rotation")) : angles});
+                        .angles = key.has("rotation") ? key.vector("rotation") : angles});
     return path;
 }
 
@@ -26,7 +25,7 @@ std::vector<engine::PoseKey> pathFrom(const std::vector<Section>& keys, const Ve
 
 engine::Motion motionFrom(Section& section, std::string_view velocity, const Vec3& pivot, BuildContext& context) {
     engine::Motion motion{.pivot = pivot};
-    if (section.has("rotation")) motion.angles = kRadiansPerDegree * section.vector("rotation");
+    if (section.has("rotation")) motion.angles = section.vector("rotation");
     if (section.has(velocity)) motion.velocity = section.vector(velocity);
     if (section.has("spin")) motion.spin = kRadiansPerTurn * section.vector("spin");
     const std::vector<Section>& keys = std::as_const(section).list("key");

@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "engine/core/hash.h"
+#include "engine/core/rotation.h"
 #include "scenes/shapes/image_outline.h"
 #include "scenes/shapes/mesh_distances.h"
 #include "scenes/shapes/mesh_file.h"
-#include "scenes/shapes/rotation.h"
 #include "scenes/shapes/text_outline.h"
 #include "scenes/text/read_file.h"
 
@@ -205,7 +205,7 @@ Placement placementFrom(const Section& section, const BuildContext& context) {
     } else {
         placement.center = section.vector("center");
     }
-    if (section.has("rotation")) placement.rotation = rotationOfDegrees(section.vector("rotation"));
+    if (section.has("rotation")) placement.rotation = engine::rotationOfDegrees(section.vector("rotation"));
     return placement;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/shapes/rotation.h"
+#include "engine/core/rotation.h"
 
 namespace scenes {
 namespace {
@@ -90,9 +90,9 @@ void appendArc(std::vector<OutlineEdge>& edges, const ProfilePoint& center, cons
                double halfThickness) {
     const int chords = std::max(1, static_cast<int>(std::ceil(degrees * kEndChords / 180.0)));
     const auto nodeAt = [&](int k) {
-        const CosSin turn = cosSinOfDegrees(degrees * k / chords);
-        const ProfilePoint normal{from.radius * turn.cos - from.height * turn.sin,
-                                  from.radius * turn.sin + from.height * turn.cos};
+        const engine::SineAndCosine turn = engine::sineAndCosineOfDegrees(degrees * k / chords);
+        const ProfilePoint normal{from.radius * turn.cosine - from.height * turn.sine,
+                                  from.radius * turn.sine + from.height * turn.cosine};
         return moved(center, normal, halfThickness);
     };
     for (int k = 0; k < chords; ++k) edges.push_back({nodeAt(k), nodeAt(k + 1)});
@@ -147,12 +147,12 @@ void appendBand(render::SolidMesh& mesh, const OutlineEdge& edge) {
     if (startsOnAxis && endsOnAxis) return;
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (int k = 0; k <= kMeridians; ++k) {
-        const CosSin turn = cosSinOfDegrees(360.0 * k / kMeridians);
+        const engine::SineAndCosine turn = engine::sineAndCosineOfDegrees(360.0 * k / kMeridians);
         for (const OutlineNode& node : {edge.start, edge.end}) {
             mesh.positions.push_back(
-                toFloats({node.point.radius * turn.cos, node.point.height, node.point.radius * turn.sin}));
+                toFloats({node.point.radius * turn.cosine, node.point.height, node.point.radius * turn.sine}));
             mesh.normals.push_back(
-                toFloats({node.normal.radius * turn.cos, node.normal.height, node.normal.radius * turn.sin}));
+                toFloats({node.normal.radius * turn.cosine, node.normal.height, node.normal.radius * turn.sine}));
         }
     }
     for (std::uint32_t k = 0; k < kMeridians; ++k) {

@@ -55,8 +55,8 @@ Setup busyWithMotion(StepperKind stepper) {
     emitter.pick = Pick::staggered;
     emitter.motion.pivot = Vec3(2, 1, 0);
     emitter.motion.keys = {{0.01, Vec3(2, 1, 0), Vec3::Zero()},
-                           {0.07, Vec3(1.4, 1.2, 0.3), Vec3(0.2, -0.5, 0.3)},
-                           {0.11, Vec3(1.4, 1.6, 0.3), Vec3(0.4, -0.5, 0.1)}};
+                           {0.07, Vec3(1.4, 1.2, 0.3), Vec3(12, -29, 17)},
+                           {0.11, Vec3(1.4, 1.6, 0.3), Vec3(23, -29, 6)}};
     completeTimes(emitter, setup.gravity, kRadius);
     return setup;
 }
@@ -104,7 +104,7 @@ TEST_CASE("An emitter glides along its keys, and rests before and after them", "
     const Vec3 from(0, 1, 0);
     const Vec3 to(3, 1, -1);
     Motion motion{.pivot = from};
-    motion.keys = {{1.0, from, Vec3::Zero()}, {3.0, to, Vec3(0, 0, 0.5 * std::numbers::pi)}};
+    motion.keys = {{1.0, from, Vec3::Zero()}, {3.0, to, Vec3(0, 0, 90)}};
     const Setup setup = nozzleAt(from, Vec3(0, -2, 0), motion);
     checkNear(particleAt(setup, 0.5, 0.0).position, from, 1e-15);
     checkNear(particleAt(setup, 0.5, 0.0).velocity, Vec3(0, -2, 0), 1e-15);

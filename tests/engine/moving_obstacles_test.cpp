@@ -17,8 +17,6 @@ using namespace engine;
 
 namespace {
 
-constexpr double kPi = 3.141592653589793;
-
 Motion gliding(const Vec3& velocity) {
     Motion motion;
     motion.velocity = velocity;
@@ -37,8 +35,8 @@ Motion winding() {
     Motion motion;
     motion.pivot = Vec3(0.5, 0.25, -0.125);
     motion.keys = {{0.0, Vec3(0, 0, 0), Vec3(0, 0, 0)},
-                   {0.5, Vec3(1, 2, 0), Vec3(1, -0.5, 2)},
-                   {1.25, Vec3(1, 3, -1), Vec3(4, 0.5, 2.5)}};
+                   {0.5, Vec3(1, 2, 0), Vec3(57, -29, 115)},
+                   {1.25, Vec3(1, 3, -1), Vec3(229, 29, 143)}};
     return motion;
 }
 
@@ -100,7 +98,7 @@ Setup stirred(StepperKind stepper) {
                         Box{Vec3(0.8, -0.9, -1.9), Vec3(1.0, 2.0, 1.9)}};
     Motion gate;
     gate.pivot = Vec3(0.9, 0.5, 0);
-    gate.keys = {{0.0, gate.pivot, Vec3::Zero()}, {0.15, gate.pivot + Vec3(0, 1, 0), Vec3(0, 0.1, 0)}};
+    gate.keys = {{0.0, gate.pivot, Vec3::Zero()}, {0.15, gate.pivot + Vec3(0, 1, 0), Vec3(0, 6, 0)}};
     obstacles.motions = {Motion{}, turning(Vec3(0, 6, 0)), gate};
     obstacles.surfaces.resize(3);
     obstacles.surfaces[1].friction = 0.5;
@@ -136,7 +134,7 @@ TEST_CASE("A pose turns points, and its velocities are those of its points", "[m
     CHECK(poseAt(winding(), 9.0).velocity == Vec3::Zero());
     // A quarter turn about x and then about y takes z to x by way of -y.
     Motion turned;
-    turned.angles = Vec3(0.5 * kPi, 0.5 * kPi, 0);
+    turned.angles = Vec3(90, 90, 0);
     CHECK((poseAt(turned, 3.0).rotation * Vec3::UnitZ() - Vec3(0, -1, 0)).norm() < 1e-15);
     CHECK((poseAt(turned, 3.0).rotation * Vec3::UnitY() - Vec3(1, 0, 0)).norm() < 1e-15);
 }

@@ -5,8 +5,8 @@
 #include <map>
 #include <numbers>
 
+#include "engine/core/rotation.h"
 #include "scenes/shapes/profile.h"
-#include "scenes/shapes/rotation.h"
 #include "scenes/shapes/tessellation.h"
 #include "scenes/shapes/text_outline.h"
 #include "tests/catch.h"
@@ -88,19 +88,19 @@ MeshFacts factsOf(const render::SolidMesh& mesh) {
 }  // namespace
 
 TEST_CASE("Angles in degrees turn exactly about quarters, and as libm does between", "[shapes]") {
-    CHECK(scenes::cosSinOfDegrees(90.0).cos == 0.0);
-    CHECK(scenes::cosSinOfDegrees(-90.0).sin == -1.0);
-    CHECK(scenes::cosSinOfDegrees(720.0).cos == 1.0);
+    CHECK(engine::sineAndCosineOfDegrees(90.0).cosine == 0.0);
+    CHECK(engine::sineAndCosineOfDegrees(-90.0).sine == -1.0);
+    CHECK(engine::sineAndCosineOfDegrees(720.0).cosine == 1.0);
     for (double angle = -800.0; angle < 800.0; angle += 0.37) {
-        const scenes::CosSin turn = scenes::cosSinOfDegrees(angle);
+        const engine::SineAndCosine turn = engine::sineAndCosineOfDegrees(angle);
         // Of 800 degrees libm's argument is rounded by 2e-15.
-        CHECK(std::abs(turn.cos - std::cos(angle * pi / 180.0)) <= 4e-15);
-        CHECK(std::abs(turn.sin - std::sin(angle * pi / 180.0)) <= 4e-15);
+        CHECK(std::abs(turn.cosine - std::cos(angle * pi / 180.0)) <= 4e-15);
+        CHECK(std::abs(turn.sine - std::sin(angle * pi / 180.0)) <= 4e-15);
     }
     // About x, then y, then z.
-    CHECK(scenes::rotationOfDegrees({90.0, 0.0, 0.0}) * Vec3::UnitY() == Vec3::UnitZ());
-    CHECK(scenes::rotationOfDegrees({90.0, 90.0, 0.0}) * Vec3::UnitY() == Vec3::UnitX());
-    CHECK(scenes::rotationOfDegrees({90.0, 90.0, 90.0}) * Vec3::UnitY() == Vec3::UnitY());
+    CHECK(engine::rotationOfDegrees({90.0, 0.0, 0.0}) * Vec3::UnitY() == Vec3::UnitZ());
+    CHECK(engine::rotationOfDegrees({90.0, 90.0, 0.0}) * Vec3::UnitY() == Vec3::UnitX());
+    CHECK(engine::rotationOfDegrees({90.0, 90.0, 90.0}) * Vec3::UnitY() == Vec3::UnitY());
 }
 
 TEST_CASE("Corners of walls and inner corners of solids are rounded", "[shapes]") {
