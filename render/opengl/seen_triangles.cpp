@@ -40,16 +40,6 @@ dvec3 normalOf(const DrawnMeshes& meshes, const DrawnTriangle& triangle) {
     return cross(dvec3(meshes.positions[b]) - corner, dvec3(meshes.positions[c]) - corner);
 }
 
-/// Whether the eye, or in parallel projection its plane, is far enough from a box that no ray starts inside of it.
-bool isOutside(const CameraFrame& frame, const Bounds<glm::vec3>& box) {
-    const glm::vec3 slack = 1.0e-5F * (abs(box.low) + abs(box.high));
-    const glm::vec3 low = box.low - slack;
-    const glm::vec3 high = box.high + slack;
-    if (frame.perspective) return any(greaterThan(low, glm::vec3(0.0F))) || any(lessThan(high, glm::vec3(0.0F)));
-    const glm::vec3 nearest = mix(low, high, lessThan(frame.forward, glm::vec3(0.0F)));
-    return dot(nearest, frame.forward) > 0.0F;
-}
-
 class Search {
  public:
     Search(const PreparedView& view, SeenTriangles& to)

@@ -78,4 +78,13 @@ Bounds<glm::vec3> boundsOf(const MeshObstacle& obstacle) {
     return bounds;
 }
 
+bool isOutside(const CameraFrame& frame, const Bounds<glm::vec3>& box) {
+    const glm::vec3 slack = 1.0e-5F * (abs(box.low) + abs(box.high));
+    const glm::vec3 low = box.low - slack;
+    const glm::vec3 high = box.high + slack;
+    if (frame.perspective) return any(greaterThan(low, glm::vec3(0.0F))) || any(lessThan(high, glm::vec3(0.0F)));
+    const glm::vec3 nearest = mix(low, high, lessThan(frame.forward, glm::vec3(0.0F)));
+    return dot(nearest, frame.forward) > 0.0F;
+}
+
 }  // namespace render

@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "render/picture/bounds.h"
+#include "render/picture/camera_frame.h"
 #include "render/picture/view.h"
 
 namespace render {
@@ -41,5 +42,10 @@ DrawnMeshes drawnMeshes(const View& view, glm::vec3 eye, DrawnMeshes old = {});
 
 /// The box around a mesh at its place, world coordinates, m; empty for a mesh without corners.
 Bounds<glm::vec3> boundsOf(const MeshObstacle& obstacle);
+
+/// Whether the eye, or in parallel projection its plane, is far enough from a box around a mesh that no ray starts
+/// inside of it: then none of the mesh's inner sides is seen.
+/// @param box  along the world's axes, relative to the eye, m
+bool isOutside(const CameraFrame& frame, const Bounds<glm::vec3>& box);
 
 }  // namespace render

@@ -95,16 +95,6 @@ Rect pixelsOf(const CameraFrame& frame, const Polygon& polygon) {
     return clippedRect(frame, glm::vec2(floor(low - double(kSlack))), glm::vec2(floor(high + double(kSlack))));
 }
 
-/// Whether the eye, or in parallel projection its plane, is far enough from a box that no ray starts inside of it.
-bool isOutside(const CameraFrame& frame, const Bounds<glm::vec3>& box) {
-    const glm::vec3 slack = 1.0e-5F * (abs(box.low) + abs(box.high));
-    const glm::vec3 low = box.low - slack;
-    const glm::vec3 high = box.high + slack;
-    if (frame.perspective) return any(greaterThan(low, glm::vec3(0.0F))) || any(lessThan(high, glm::vec3(0.0F)));
-    const glm::vec3 nearest = mix(low, high, lessThan(frame.forward, glm::vec3(0.0F)));
-    return dot(nearest, frame.forward) > 0.0F;
-}
-
 /// Whether a triangle is seen from the side that its corners run around counterclockwise. The rows of a picture run
 /// down and its depth away from the eye, so that the picture's axes have the handedness of the world's.
 /// @param volume  twice its signed area on the picture, or the determinant of its corners in homogeneous
