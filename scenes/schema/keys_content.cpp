@@ -35,6 +35,46 @@ std::vector<Key> pathKeys(std::string_view positionHelp, std::string_view rotati
 /// Turns a second. The sines of an hour's turns have all their bits.
 constexpr Range kSpins{.low = -40.0, .high = 40.0};
 
+// Keys that bodies and obstacles share.
+
+Key topRadiusKey() {
+    return key("top_radius", Type::number, "m", "radius of a frustum at its top; it may be 0")
+        .required()
+        .within({.low = 0.0, .high = engine::kWorldLimit})
+        .onlyFor({"frustum"});
+}
+
+Key scaleKey() {
+    return key("scale", Type::number, "", "factor on the coordinates of a mesh, which are in meters")
+        .defaultsTo("1")
+        .within({.low = 0.0, .high = 1e9, .isLowExcluded = true})
+        .onlyFor({"mesh"});
+}
+
+Key profileKey() {
+    return key("profile", Type::pairList, "m", kProfileHelp).required().within(kWithinWorld).onlyFor({"revolution"});
+}
+
+Key closedKey() {
+    return key("closed", Type::boolean, "", "whether the last point of the profile is joined to the first")
+        .derivedAs("true without a thickness, false with one")
+        .onlyFor({"revolution"});
+}
+
+Key smoothKey() {
+    return key("smooth", Type::boolean, "",
+               "whether a curve goes through the points of the profile, not straight lines")
+        .defaultsTo("false")
+        .onlyFor({"revolution"});
+}
+
+Key filletKey() {
+    return key("fillet", Type::number, "m", "radius with which inner corners of the profile are rounded")
+        .derivedAs("the thickness of a wall, or a fiftieth of the size of a solid")
+        .within({.low = 0.0, .high = engine::kWorldLimit})
+        .onlyFor({"revolution"});
+}
+
 }  // namespace
 
 std::vector<Key> bodyKeys() {
@@ -60,10 +100,7 @@ std::vector<Key> bodyKeys() {
         length("radius", "radius; of a cone or frustum, at its bottom")
             .required()
             .onlyFor({"ball", "cylinder", "cone", "frustum", "capsule", "shell"}),
-        key("top_radius", Type::number, "m", "radius of a frustum at its top; it may be 0")
-            .required()
-            .within({.low = 0.0, .high = engine::kWorldLimit})
-            .onlyFor({"frustum"}),
+        topRadiusKey(),
         length("height",
                "height, along y before the rotation; of a capsule, from end to end; of a text, of its "
                "capital letters; of an image, of the whole image")
@@ -73,27 +110,17 @@ std::vector<Key> bodyKeys() {
         length("depth", "depth of the letters or of the image, along z before the rotation")
             .required()
             .onlyFor({"text", "image"}),
-        key("profile", Type::pairList, "m", kProfileHelp).required().within(kWithinWorld).onlyFor({"revolution"}),
-        key("closed", Type::boolean, "", "whether the last point of the profile is joined to the first")
-            .derivedAs("true without a thickness, false with one")
-            .onlyFor({"revolution"}),
-        key("smooth", Type::boolean, "", "whether a curve goes through the points of the profile, not straight lines")
-            .defaultsTo("false")
-            .onlyFor({"revolution"}),
-        key("fillet", Type::number, "m", "radius with which inner corners of the profile are rounded")
-            .derivedAs("the thickness of a wall, or a fiftieth of the size of a solid")
-            .within({.low = 0.0, .high = engine::kWorldLimit})
-            .onlyFor({"revolution"}),
+        profileKey(),
+        closedKey(),
+        smoothKey(),
+        filletKey(),
         length("thickness",
                "thickness of the wall along a profile; for other shapes, of what is filled below the "
                "surface of a body that is hollow")
             .derivedAs("the whole inside is filled; a shell needs it")
             .onlyFor({"box", "ball", "cylinder", "cone", "frustum", "capsule", "shell", "revolution", "mesh", "text",
                       "image"}),
-        key("scale", Type::number, "", "factor on the coordinates of a mesh, which are in meters")
-            .defaultsTo("1")
-            .within({.low = 0.0, .high = 1e9, .isLowExcluded = true})
-            .onlyFor({"mesh"}),
+        scaleKey(),
         key("text", Type::string, "", "letters to fill, in one or more lines").required().onlyFor({"text"}),
         key("font", Type::string, "", "TrueType or OpenType font file, relative to the scene file")
             .derivedAs("DejaVu Sans, which is built in")
@@ -231,34 +258,21 @@ std::vector<Key> obstacleKeys() {
         length("radius", "radius; of a cone or frustum, at its bottom")
             .required()
             .onlyFor({"sphere", "cylinder", "cone", "frustum", "capsule"}),
-        key("top_radius", Type::number, "m", "radius of a frustum at its top; it may be 0")
-            .required()
-            .within({.low = 0.0, .high = engine::kWorldLimit})
-            .onlyFor({"frustum"}),
+        topRadiusKey(),
         length("height", "height, along y before the rotation; of a capsule, from end to end")
             .required()
             .onlyFor({"cylinder", "cone", "frustum", "capsule"}),
-        key("profile", Type::pairList, "m", kProfileHelp).required().within(kWithinWorld).onlyFor({"revolution"}),
-        key("closed", Type::boolean, "", "whether the last point of the profile is joined to the first")
-            .derivedAs("true without a thickness, false with one")
-            .onlyFor({"revolution"}),
-        key("smooth", Type::boolean, "", "whether a curve goes through the points of the profile, not straight lines")
-            .defaultsTo("false")
-            .onlyFor({"revolution"}),
-        key("fillet", Type::number, "m", "radius with which inner corners of the profile are rounded")
-            .derivedAs("the thickness of a wall, or a fiftieth of the size of a solid")
-            .within({.low = 0.0, .high = engine::kWorldLimit})
-            .onlyFor({"revolution"}),
+        profileKey(),
+        closedKey(),
+        smoothKey(),
+        filletKey(),
         length("thickness", "thickness of the wall along a profile")
             .derivedAs("the inside of the profile is solid")
             .onlyFor({"revolution"}),
         key("file", Type::string, "", "closed mesh, relative to the scene file: OBJ, STL, PLY or glTF")
             .required()
             .onlyFor({"mesh"}),
-        key("scale", Type::number, "", "factor on the coordinates of a mesh, which are in meters")
-            .defaultsTo("1")
-            .within({.low = 0.0, .high = 1e9, .isLowExcluded = true})
-            .onlyFor({"mesh"}),
+        scaleKey(),
         key("repulsor", Type::choice, "",
             "what repels particles: a repulsor below the surface, or one as large as the sphere, for the paper's walls "
             "alone")
@@ -277,7 +291,7 @@ std::vector<Key> obstacleKeys() {
         key("until", Type::number, "s", "the obstacle is taken away at this time")
             .derivedAs("no end")
             .within(kPositive),
-        key("record", Type::boolean, "", "whether its load (force, torque, impulse and work) is recorded")
+        key("record", Type::boolean, "", "whether its load (impulse, angular impulse and work) is recorded in run.json")
             .derivedAs("true for what moves"),
         key("restitution", Type::number, "", "speed after a rebound over the speed before; not of the paper's walls")
             .derivedAs("0.2, less for viscous materials")
