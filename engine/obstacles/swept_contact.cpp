@@ -75,8 +75,9 @@ double barrierDepth(const Surface& surface, const Obstacles& obstacles, const Pr
     return std::min(depth, kGrazeDepth * std::min(radius, surface.halfThickness));
 }
 
-/// Bounds on distance and forces of a particle's contacts with obstacles. Where obstacles move, what counts is the time
-/// until the particle and a surface meet: reach and scale are lengths of paths at the speed below that take as long.
+/// Bounds on distance and forces of a particle's contacts with obstacles. The lengths `reach` and `scale` are compared
+/// with that of a path at `speed`. Where obstacles move, each is therefore the distance from a surface times `speed`
+/// over the particle's speed relative to that surface, so that both take the same time.
 struct ContactBounds {
     double speed = 0.0;                                    ///< m/s; the particle's own where no obstacle moves
     double gap = std::numeric_limits<double>::infinity();  ///< distance to the nearest surface, negative in contact, m
@@ -86,7 +87,8 @@ struct ContactBounds {
     double damping = 0.0;                                    ///< largest damping of a contact, kg/s
 };
 
-/// A speed of which the order is that of a particle's motion relative to the surfaces around it, m/s.
+/// The speed of a particle plus the largest speed that an obstacle in motion would have where the particle is, m/s.
+/// Only a scale: what is compared with a path at this speed is measured in it, too.
 double speedAmong(const Obstacles& obstacles, const Probe& particle) {
     const double own = std::sqrt(squaredLength(particle.velocity));
     double fastest = 0.0;

@@ -111,6 +111,7 @@ bool hadFreePath(const Simulation& simulation, std::size_t p, const Vec3& start)
     const Obstacles& obstacles = simulation.setup.obstacles;
     if (obstacles.shapes.empty() || isClearOfObstacles(simulation, p)) return true;
     if (simulation.cache->swept[p]) return false;  // swept contacts are those in a particle's way
+    // Where they were in the meantime is not known here.
     if (areInMotion(obstacles)) return false;
     Probe particle = probeOf(simulation, p, simulation.time);
     particle.position = start;
