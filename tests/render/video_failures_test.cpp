@@ -99,18 +99,18 @@ TEST_CASE("An ffmpeg that hangs is killed") {
 TEST_CASE("An ffmpeg that works longer than the timeout is waited for") {
     const Folder folder;
     render::VideoOptions options{folder.file("a.mp4"), {640, 360}};
-    options.progressTimeout = std::chrono::milliseconds(300);
-    // After its input has ended it works for 1 s: its file changes, as when +faststart moves the index to the front.
-    options.ffmpeg =
-        fakeFfmpeg(folder, "cat >/dev/null; for k in 1 2 3 4 5 6 7 8 9 10; do sleep 0.1; echo >>$out; done");
+    // Ten times as long as the steps of the work, so that a busy machine does not make one step seem none.
+    options.progressTimeout = std::chrono::milliseconds(2000);
+    const std::string work = "for k in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15; do sleep 0.2; echo >>$out; done";
+    // After its input has ended it works for 3 s: its file changes, as when +faststart moves the index to the front.
+    options.ffmpeg = fakeFfmpeg(folder, "cat >/dev/null; " + work);
     writeVideo(options, 3);
-    CHECK(bytesOf(options.path).size() == 10);
-    // One process that only computes for more than three times the timeout.
-    options.ffmpeg = fakeFfmpeg(folder, "exec perl -e 'while (<STDIN>) {} 1 while (times)[0] < 1'");
+    CHECK(bytesOf(options.path).size() == 15);
+    // One process that only computes for longer than the timeout.
+    options.ffmpeg = fakeFfmpeg(folder, "exec perl -e 'while (<STDIN>) {} 1 while (times)[0] < 2.5'");
     writeVideo(options, 3);
     // A frame that takes as long: the input is not read meanwhile.
-    options.ffmpeg =
-        fakeFfmpeg(folder, "for k in 1 2 3 4 5 6 7 8 9 10; do sleep 0.1; echo >>$out; done; cat >/dev/null");
+    options.ffmpeg = fakeFfmpeg(folder, work + "; cat >/dev/null");
     writeVideo(options, 3);
 }
 
