@@ -36,6 +36,11 @@ struct BoundingBox {
 
     Vec3 middle() const { return 0.5 * (low + high); }
 
+    /// The squared distance of a point from the box; 0 inside.
+    double squaredDistance(const Vec3& point) const {
+        return squaredLength(point - point.cwiseMax(low).cwiseMin(high));
+    }
+
     /// Extends the box to contain another.
     void include(const BoundingBox& other) {
         for (int axis = 0; axis < 3; ++axis) {

@@ -2,7 +2,9 @@
 // from machine to machine.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 namespace engine {
@@ -12,15 +14,23 @@ struct SineAndCosine {
     double cosine = 1.0;
 };
 
+/// 1/(n (n + 1)) for n = 0 (unused), 1, 2, ...: the ratios of neighboring Taylor coefficients.
+inline constexpr auto kTaylorRatios = [] {
+    std::array<double, 18> ratios{};
+    for (std::size_t n = 1; n < ratios.size(); ++n) ratios[n] = 1.0 / static_cast<double>(n * (n + 1));
+    return ratios;
+}();
+
 /// Sine and cosine of the sum of a number of quarter turns and of a rest x (rad), at most an eighth of a turn.
 inline SineAndCosine ofQuartersAndRest(double quarters, double x) {
     const double square = x * x;
     // Taylor to x^17/17! and x^18/18!: the first terms left out are below (pi/4)^19/19! = 9e-20.
     double sine = 1.0;
-    for (int order = 16; order >= 2; order -= 2) sine = 1.0 - sine * square / (order * (order + 1));
+    for (std::size_t n = 16; n >= 2; n -= 2) sine = 1.0 - sine * (square * kTaylorRatios[n]);
     sine *= x;
     double cosine = 1.0;
-    for (int order = 17; order >= 1; order -= 2) cosine = 1.0 - cosine * square / (order * (order + 1));
+    for (std::size_t n = 17; n >= 3; n -= 2) cosine = 1.0 - cosine * (square * kTaylorRatios[n]);
+    cosine = 1.0 - cosine * (0.5 * square);
     switch (static_cast<long long>(quarters) & 3) {
         case 0:
             return {sine, cosine};

@@ -92,7 +92,7 @@ Hit hitOf(const Sphere& sphere, const StraightMotion& motion) {
 Hit firstHit(const Obstacles& obstacles, const StraightMotion& motion, double time, double duration) {
     Hit first;
     const double reach = motion.speed * duration + 2.0 * motion.skin;
-    forEachNear(obstacles, motion.position, reach, [&](std::size_t k) {
+    forEachNear(obstacles, motion.position, time, reach, [&](std::size_t k) {
         const auto byLeaps = [&] { return hitByLeaps(obstacles, k, motion, time, std::min(duration, first.time)); };
         const auto hitOfShape = [&](const auto& shape) {
             if (!mayReach(shape, motion.position, reach)) return Hit{};

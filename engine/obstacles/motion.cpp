@@ -56,6 +56,11 @@ Pose poseAt(const Motion& motion, double time) {
     return pose;
 }
 
+Vec3 velocityAt(const Motion& motion, double time, const Vec3& point) {
+    if (!motion.keys.empty()) return poseOnPath(motion, time).velocityAt(point);
+    return motion.velocity + motion.spin.cross(point - (motion.pivot + time * motion.velocity));
+}
+
 double fastestBetween(const Motion& motion, double from, double to, double extent) {
     if (motion.keys.empty())
         return speedAt(extent, std::sqrt(squaredLength(motion.velocity)), std::sqrt(squaredLength(motion.spin)));

@@ -56,6 +56,10 @@ struct Motion {
 /// on every machine.
 Pose poseAt(const Motion& motion, double time);
 
+/// Velocity at a time (s) of the object's material at a point of the scene, m/s; as poseAt() has it, without a rotation
+/// where none is needed for it.
+Vec3 velocityAt(const Motion& motion, double time, const Vec3& point);
+
 /// An upper bound on the speed of any point of an object within a distance `extent` (m) of its pivot, between two
 /// times (s), m/s.
 double fastestBetween(const Motion& motion, double from, double to, double extent);

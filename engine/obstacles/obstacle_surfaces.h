@@ -143,15 +143,25 @@ bool mayReach(const Shape& shape, const Vec3& point, double reach) {
     }
 }
 
-/// Calls visit(index) for all obstacles that have a surface nearer to a point than `reach` (m), and maybe for others.
-/// Returns a lower bound on the distances of the obstacles that are left out, m.
+/// Calls visit(index) for all obstacles that have a surface nearer to a point than `reach` (m) at a time (s), or, if
+/// the time is in a step whose places are kept, at any time of that step; maybe for others, too. Returns a lower bound
+/// on the distances of the obstacles that are left out, m.
 template <class Visit>
-double forEachNear(const Obstacles& obstacles, const Vec3& point, double reach, const Visit& visit) {
+double forEachNear(const Obstacles& obstacles, const Vec3& point, double time, double reach, const Visit& visit) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const bool areBounded = !obstacles.kept.swept.empty() && obstacles.kept.include(time);
+    bool isOneAway = false;
+    const auto visitUnlessAway = [&](std::size_t k) __attribute__((always_inline)) {
+        constexpr double kSlack = 1.0 + 1e-9;  // margin of the test; chosen: far above its rounding errors
+        const bool isAway = areBounded && !(obstacles.kept.swept[k].squaredDistance(point) < kSlack * reach * reach);
+        isOneAway |= isAway;
+        if (!isAway) visit(k);
+    };
     if (obstacles.index.solids.isEmpty()) {
-        for (std::size_t k = 0; k < obstacles.shapes.size(); ++k) visit(k);
-        return std::numeric_limits<double>::infinity();
+        for (std::size_t k = 0; k < obstacles.shapes.size(); ++k) visitUnlessAway(k);
+        return isOneAway ? reach : kInfinity;
     }
-    for (const std::uint32_t k : obstacles.index.unbounded) visit(k);
+    for (const std::uint32_t k : obstacles.index.unbounded) visitUnlessAway(k);
     obstacles.index.solids.visitNear(point, reach, [&](std::uint32_t box) { visit(obstacles.index.obstacleOf[box]); });
     return reach;
 }
@@ -180,7 +190,7 @@ void forEachPlacedSurface(const Obstacles& obstacles, std::size_t obstacle, cons
 /// others. Returns a lower bound on the distances of those that are left out, m.
 template <class Visit>
 double forEachSurface(const Obstacles& obstacles, const Vec3& point, double time, double reach, const Visit& visit) {
-    return forEachNear(obstacles, point, reach, [&](std::size_t k) {
+    return forEachNear(obstacles, point, time, reach, [&](std::size_t k) {
         const WallSurface* const wall = &wallSurfaceOf(obstacles, k);
         const auto visitHere = [&](Surface surface) __attribute__((always_inline)) {
             surface.wall = wall;
@@ -211,7 +221,7 @@ constexpr double largestContactReach(double radius) {
 /// Calls visit(Surface) for every surface that acts at a time (s) on a particle of this radius (m).
 template <class Visit>
 void forEachTouched(const Obstacles& obstacles, const Vec3& point, double time, double radius, const Visit& visit) {
-    forEachNear(obstacles, point, largestContactReach(radius), [&](std::size_t k) {
+    forEachNear(obstacles, point, time, largestContactReach(radius), [&](std::size_t k) {
         const WallSurface& wall = wallSurfaceOf(obstacles, k);
         const double reach = contactReach(wall, radius);
         const auto visitTouched = [&](Surface surface) {

@@ -52,6 +52,20 @@ double extentOf(const Obstacle& shape, const Vec3& from) {
     return std::sqrt(squaredLength((from - bounds->low).cwiseAbs().cwiseMax((bounds->high - from).cwiseAbs())));
 }
 
+/// What contains an obstacle, given by its index, throughout the step whose places are kept. No point of it is farther
+/// from where it is at the start than its fastest point goes.
+BoundingBox sweptBounds(const Obstacles& obstacles, std::size_t obstacle) {
+    const Motion& motion = obstacles.motions[obstacle];
+    const Obstacle& shape = obstacles.shapes[obstacle];
+    const bool isEndless = std::holds_alternative<Plane>(shape) || std::holds_alternative<Container>(shape);
+    if (isEndless || motion.isIdentity()) return BoundingBox::unbounded();
+    const auto& [start, end] = obstacles.kept.ends;
+    const double fastest = fastestBetween(motion, start.time, end.time, extentOf(shape, motion.pivot));
+    const Vec3 margin = Vec3::Constant(fastest * (end.time - start.time));
+    const BoundingBox bounds = boundsIn(start.poses[obstacle], *boundsOf(shape));
+    return {bounds.low - margin, bounds.high + margin};
+}
+
 }  // namespace
 
 RevolutionSolid revolutionSolid(Revolution revolution, const Vec3& origin) {
@@ -111,20 +125,19 @@ void recordInMotion(Obstacles& obstacles) {
 
 void place(Obstacles& obstacles, double from, double to) {
     if (obstacles.motions.empty()) return;
+    auto& [ends, swept] = obstacles.kept;
+    if (ends[0].time == from && ends[1].time == to) return;
+    // The end of a step mostly is the start of the next.
+    if (ends[1].time == from) std::swap(ends[0], ends[1]);
     const std::array times = {from, to};
     for (std::size_t k = 0; k < times.size(); ++k) {
-        PosesAt& kept = obstacles.kept[k];
-        if (kept.time == times[k]) continue;
-        // The end of a step mostly is the start of the next.
-        const PosesAt& other = obstacles.kept[1 - k];
-        if (other.time == times[k]) {
-            kept = other;
-            continue;
-        }
-        kept.time = times[k];
-        kept.poses.clear();
-        for (const Motion& motion : obstacles.motions) kept.poses.push_back(poseAt(motion, times[k]));
+        if (ends[k].time == times[k]) continue;
+        ends[k].time = times[k];
+        ends[k].poses.clear();
+        for (const Motion& motion : obstacles.motions) ends[k].poses.push_back(poseAt(motion, times[k]));
     }
+    swept.clear();
+    for (std::size_t k = 0; k < obstacles.motions.size(); ++k) swept.push_back(sweptBounds(obstacles, k));
 }
 
 Vec3 pivotAt(const Obstacles& obstacles, std::size_t obstacle, double time) {

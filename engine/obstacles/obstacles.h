@@ -123,6 +123,16 @@ struct PosesAt {
     std::vector<Pose> poses;
 };
 
+/// Where obstacles are in a step, so that particles need not look for those that do not come near them.
+struct PlacesInStep {
+    std::array<PosesAt, 2> ends;  ///< at the start and at the end of the step
+    /// What contains each obstacle throughout the step, m; without bounds for those that have no end or do not move.
+    std::vector<BoundingBox> swept;
+
+    /// Whether a time (s) is in the step.
+    bool include(double time) const { return time >= ends[0].time && time <= ends[1].time; }
+};
+
 struct Obstacles {
     std::vector<Obstacle> shapes;
     ObstacleIndex index;  ///< of the shapes; start() fills it in
@@ -136,7 +146,7 @@ struct Obstacles {
     /// For each shape whether its loads are recorded; empty where none are. Those of obstacles in motion must be, since
     /// the audit of steps needs their work.
     std::vector<bool> areRecorded;
-    std::array<PosesAt, 2> kept;  ///< poses at the start and at the end of a step; place() fills them in
+    PlacesInStep kept;  ///< of the present step; place() fills it in
 };
 
 /// Whether an obstacle, given by its index, is turned or moves.
@@ -155,14 +165,16 @@ inline bool isRecorded(const Obstacles& obstacles, std::size_t obstacle) {
     return !obstacles.areRecorded.empty() && obstacles.areRecorded[obstacle];
 }
 
-/// Keeps the poses at the start and at the end of a step (s), between which particles are about to be moved.
+/// Keeps where the obstacles are from the start to the end of a step (s), in which particles are about to be moved.
 void place(Obstacles& obstacles, double from, double to);
 
 /// The pose of an obstacle, given by its index, at a time (s).
 inline Pose poseOf(const Obstacles& obstacles, std::size_t obstacle, double time) {
-    for (const PosesAt& kept : obstacles.kept)
-        if (kept.time == time) return kept.poses[obstacle];
-    return poseAt(obstacles.motions[obstacle], time);
+    for (const PosesAt& end : obstacles.kept.ends)
+        if (end.time == time) return end.poses[obstacle];
+    const Motion& motion = obstacles.motions[obstacle];
+    if (!obstacles.kept.swept.empty() && motion.isAtRest()) return obstacles.kept.ends[0].poses[obstacle];
+    return poseAt(motion, time);
 }
 
 /// The point about which an obstacle's torque is taken, at a time (s): its pivot, m.

@@ -94,7 +94,7 @@ double speedAmong(const Obstacles& obstacles, const Probe& particle) {
     double fastest = 0.0;
     for (std::size_t k = 0; k < obstacles.motions.size(); ++k) {
         if (obstacles.motions[k].isAtRest() || particle.time >= obstacles.motions[k].until) continue;
-        const Vec3 velocity = poseOf(obstacles, k, particle.time).velocityAt(particle.position);
+        const Vec3 velocity = velocityAt(obstacles.motions[k], particle.time, particle.position);
         fastest = std::max(fastest, squaredLength(velocity));
     }
     return own + std::sqrt(fastest);
@@ -152,7 +152,7 @@ ContactBounds findContactBounds(const Obstacles& obstacles, const Probe& particl
             visit(surface, contact);
         });
     if (std::isinf(beyond)) return bounds;
-    // Obstacles that are left out are scaled walls at rest, the only ones with an index, and out of reach:
+    // Obstacles that are left out are scaled walls, since the paper's have no index and do not move, and out of reach:
     // scaledScale() of a surface without contact is two radii.
     bounds.gap = std::min(bounds.gap, beyond - largestContactReach(radius));
     bounds.reach = std::min(bounds.reach, beyond - largestContactReach(radius));

@@ -139,6 +139,32 @@ TEST_CASE("A pose turns points, and its velocities are those of its points", "[m
     CHECK((poseAt(turned, 3.0).rotation * Vec3::UnitY() - Vec3(1, 0, 0)).norm() < 1e-15);
 }
 
+TEST_CASE("Obstacles left out because a step keeps them away are not touched in that step", "[motion]") {
+    Obstacles placed = stirred(StepperKind::velocityVerlet).obstacles;
+    const Obstacles fresh = placed;
+    constexpr double kFrom = 0.05;
+    constexpr double kTo = 0.08;
+    place(placed, kFrom, kTo);
+    constexpr double kRadius = 0.15;
+    std::uint32_t touched = 0;
+    std::uint32_t leftOut = 0;
+    for (std::uint64_t k = 0; k < 3000; ++k) {
+        const Vec3 point = 2.5 * clouds::randomVector(5, k);
+        const double time = kFrom + (kTo - kFrom) * static_cast<double>(k % 11) / 10.0;
+        std::vector<double> heights, expected;
+        forEachTouched(placed, point, time, kRadius,
+                       [&](const Surface& surface) { heights.push_back(surface.height); });
+        forEachTouched(fresh, point, time, kRadius,
+                       [&](const Surface& surface) { expected.push_back(surface.height); });
+        CHECK(heights == expected);
+        touched += static_cast<std::uint32_t>(expected.size());
+        const double beyond = forEachNear(placed, point, time, kRadius, [](std::size_t /*obstacle*/) {});
+        leftOut += std::isfinite(beyond) ? 1U : 0U;
+    }
+    CHECK(touched > 300);
+    CHECK(leftOut > 300);
+}
+
 TEST_CASE("An elastic wall at speed u turns v into 2u - v", "[motion]") {
     const double radius = materialPreset("liquid")->radius;
     const std::vector<Obstacle> shapes = {
