@@ -94,6 +94,13 @@ if wanted constants; then
 fi
 
 still fountain 168
+still wine 75
+still gate 52
+still word 27
+still hourglass 180
+still mixer 90
+still stamp 140
+still conveyor 200
 still liquid 48
 still solid 72
 still powder 171

@@ -13,11 +13,15 @@ std::string goldenName(const GoldenScene& scene, const std::string& style, int f
 const std::vector<GoldenScene>& scenes() {
     static const std::vector<GoldenScene> kScenes = {
         {"cascade", 30, 130, {}},
+        {"conveyor", 20, 60, {}},
         {"fountain", 20, 60, {}, true},
+        {"gate", 25, 50, {"physics.stepper=velocity-verlet", "physics.step=0.003"}},
         {"honey", 30, 90, {}},
+        {"hourglass", 15, 45, {}},
         {"jam", 5, 30, {"physics.stepper=linearly-implicit", "physics.step=0.01"}},
         {"lava", 30, 90, {}},
         {"liquid", 5, 30, {"physics.stepper=velocity-verlet", "physics.step=0.004"}, true},
+        {"mixer", 25, 60, {"physics.error=2"}},
         {"molten-metal", 30, 90, {}},
         {"mud", 6, 24, {"physics.error=2"}},
         {"oil", 10, 30, {}},
@@ -39,7 +43,10 @@ const std::vector<GoldenScene>& scenes() {
         {"sand", 30, 100, {}},
         {"solid", 6, 24, {"physics.stepper=velocity-verlet", "physics.step=0.004"}, true},
         {"splash", 12, 40, {}},
+        {"stamp", 25, 50, {"physics.error=2"}},
         {"sticky", 6, 20, {}},
+        {"wine", 25, 60, {}, true},
+        {"word", 15, 24, {}},
     };
     return kScenes;
 }

@@ -32,13 +32,27 @@ struct Moment {
 /// Early frames, which are soon simulated, but late enough for the bodies to have met.
 Moment momentOf(const std::string& scene) {
     static const std::map<std::string, Moment> moments{
-        {"cascade", {30}},      {"fountain", {20}},
-        {"honey", {20}},        {"jam", {5, {"physics.stepper=linearly-implicit", "physics.step=0.01"}}},
-        {"lava", {30}},         {"liquid", {5, {"physics.stepper=velocity-verlet", "physics.step=0.004"}}},
-        {"molten-metal", {30}}, {"mud", {20}},
-        {"oil", {20}},          {"powder", {30}},
-        {"sand", {10}},         {"solid", {6, {"physics.stepper=velocity-verlet", "physics.step=0.004"}}},
-        {"splash", {12}},       {"sticky", {8}}};
+        {"cascade", {30}},
+        {"conveyor", {10}},
+        {"fountain", {20}},
+        {"gate", {20, {"physics.stepper=velocity-verlet", "physics.step=0.003"}}},
+        {"honey", {20}},
+        {"hourglass", {5}},
+        {"jam", {5, {"physics.stepper=linearly-implicit", "physics.step=0.01"}}},
+        {"lava", {30}},
+        {"liquid", {5, {"physics.stepper=velocity-verlet", "physics.step=0.004"}}},
+        {"mixer", {5}},
+        {"molten-metal", {30}},
+        {"mud", {20}},
+        {"oil", {20}},
+        {"powder", {30}},
+        {"sand", {10}},
+        {"solid", {6, {"physics.stepper=velocity-verlet", "physics.step=0.004"}}},
+        {"splash", {12}},
+        {"stamp", {5, {"physics.error=2"}}},
+        {"sticky", {8}},
+        {"wine", {25}},
+        {"word", {15}}};
     if (const auto found = moments.find(scene); found != moments.end()) return found->second;
     return {scene.starts_with("hard/") ? 1 : 60};
 }
@@ -62,8 +76,16 @@ TEST_CASE("Both renderers draw the same picture of every built-in scene", "[open
             const render::View view = scenes::frameView(sceneOf(entry, style), simulation);
             const render::Image byCpu = pictures::drawn(By::cpu, view, kSize, Quality::normal);
             const render::Image byOpenGl = pictures::drawn(By::openGl, view, kSize, Quality::normal);
-            const auto difference = pictures::compare(byOpenGl, byCpu, style == "spheres" ? 1 : 64);
+            const bool hasMesh = !view.meshObstacles.empty();
+            const auto difference = pictures::compare(byOpenGl, byCpu, style != "spheres" ? 64 : hasMesh ? 24 : 1);
             INFO(entry.name << ", " << style << ": " << difference);
+            if (style == "spheres" && hasMesh) {
+                // Samples of one pixel that see one smooth mesh are shaded together by the CPU and one by one by
+                // OpenGL, which differ where the mesh bends within the pixel, as along the rim of a bowl.
+                CHECK(difference.share <= 3.0 / kPixels);
+                CHECK(difference.mean < 0.2);
+                continue;
+            }
             if (style == "spheres") {
                 // Single precision, rounded to bytes. One of a pixel's four samples may lie so close to an outline that
                 // roundings decide which sphere it hits: in one pixel of all scenes.

@@ -239,9 +239,10 @@ TEST_CASE("Scenes of the repository start with particles where they are meant to
         ++looked;
     }
     CHECK(looked > 40);
-    for (const auto& file : fs::directory_iterator(GLOBULAR_SOURCE "/docs"))
-        if (file.path().extension() == ".toml") {
-            INFO(file.path());
-            CHECK(scenes::startWarnings(scenes::loadScene(file.path(), {})) == Lines{});
-        }
+    for (const char* folder : {GLOBULAR_SOURCE "/docs", GLOBULAR_SOURCE "/examples/scenes"})
+        for (const auto& file : fs::directory_iterator(folder))
+            if (file.path().extension() == ".toml") {
+                INFO(file.path());
+                CHECK(scenes::startWarnings(scenes::loadScene(file.path(), {})) == Lines{});
+            }
 }
