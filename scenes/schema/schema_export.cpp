@@ -78,6 +78,18 @@ std::string markdownRow(const Key& key) {
                        condition);
 }
 
+/// Pictures of all shapes, for the page. `tools/gallery.sh shapes` draws them.
+constexpr std::string_view kBodyPictures = R"(
+![The particles of a body of each shape](bodies.webp)
+
+The shapes of bodies, drawn in [bodies.toml](bodies.toml) by `tools/gallery.sh shapes`.
+)";
+constexpr std::string_view kObstaclePictures = R"(
+![Honey runs over an obstacle of each shape](shapes.webp)
+
+The shapes of obstacles, in [shapes.toml](shapes.toml).
+)";
+
 }  // namespace
 
 std::vector<SchemaRow> schemaRows() {
@@ -124,6 +136,8 @@ range are errors, and are reported with line and column.
         text += "| Key | Type, unit | Default | Range or choices | Meaning |\n|---|---|---|---|---|\n";
         for (const Key* key : keysOf(table.name)) text += markdownRow(*key);
         if (table.name == "material") text += materialGuideMarkdown();
+        if (table.name == "body") text += kBodyPictures;
+        if (table.name == "obstacle") text += kObstaclePictures;
     }
     return text;
 }

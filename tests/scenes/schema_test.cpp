@@ -122,9 +122,11 @@ TEST_CASE("every preset is described, in the order of the presets, and its const
     CHECK(page.find(" | 0.08 | 0.015 | 0.03 | 1.2 | 1 | 1 | 0.3 | ") != std::string::npos);
 }
 
-TEST_CASE("the page shows a picture of what the constants do, which is there") {
-    CHECK(scenes::schemaMarkdown().find("](constants.webp)") != std::string::npos);
-    CHECK(std::filesystem::exists(GLOBULAR_SOURCE "/docs/constants.webp"));
+TEST_CASE("the page shows pictures of what the constants do and of all shapes, which are there") {
+    for (const std::string picture : {"constants", "bodies", "shapes"}) {
+        CHECK(scenes::schemaMarkdown().find("](" + picture + ".webp)") != std::string::npos);
+        CHECK(std::filesystem::exists(GLOBULAR_SOURCE "/docs/" + picture + ".webp"));
+    }
 }
 
 TEST_CASE("docs/scenes.md is current") {
