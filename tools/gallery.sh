@@ -195,7 +195,7 @@ fi
 still fountain 168
 still wine 75
 still gate 52
-still word 27
+still word 17
 still hourglass 180
 still mixer 90
 still stamp 140
