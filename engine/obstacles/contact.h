@@ -192,7 +192,7 @@ inline Vec3 slipVelocity(const Vec3& velocity, const Vec3& normal) {
 inline void recordLoad(const Surface& surface, const Vec3& impulse, const Obstacles& obstacles, const Probe& probe,
                        ContactLoads& loads) {
     if (!isRecorded(obstacles, surface.obstacle)) return;
-    loads.push_back({surface.obstacle, impulse, footOf(surface, probe.position), surface.velocity, probe.time});
+    loads.push_back({surface.obstacle, impulse, probe.position, surface.velocity, probe.time});
 }
 
 /// Damping of a contact along the surface's normal, in kg/s.

@@ -13,7 +13,7 @@ namespace engine {
 struct ContactLoad {
     std::size_t obstacle = 0;      ///< index of the obstacle
     Vec3 impulse = Vec3::Zero();   ///< on the particle, N s
-    Vec3 point = Vec3::Zero();     ///< where it acts, m
+    Vec3 point = Vec3::Zero();     ///< where it acts: the center of the particle, m
     Vec3 velocity = Vec3::Zero();  ///< of the obstacle's material there, m/s
     double time = 0.0;             ///< s
 };

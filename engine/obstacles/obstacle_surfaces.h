@@ -22,14 +22,11 @@ struct Surface {
     double curvature = 0.0;                                          ///< 1/radius of a sphere, otherwise 0; 1/m
     const WallSurface* wall = &kPlainWall;                           ///< how it answers under the scaled wall law
     double slope = 1.0;                                              ///< change of the height along the normal
-    Vec3 velocity = Vec3::Zero();                                    ///< of the face's material, m/s
+    /// Of the obstacle's material where the particle's center is, m/s: a particle that an obstacle carries along as it
+    /// turns is at rest relative to it. Along the normal the material has the same velocity at the face.
+    Vec3 velocity = Vec3::Zero();
     std::size_t obstacle = 0;                                        ///< index of the obstacle that it belongs to
 };
-
-/// The point of a surface that is closest to a particle's center, which is at a point (m).
-inline Vec3 footOf(const Surface& surface, const Vec3& point) {
-    return point - surface.height * surface.normal;
-}
 
 // The functions forEachSurface(shape, point, repulsorRadius, visit) call visit(Surface) for each face of a shape that
 // can act on a particle at the point (m, in the shape's coordinates), at any distance.
@@ -179,7 +176,7 @@ void forEachPlacedSurface(const Obstacles& obstacles, std::size_t obstacle, cons
             if (!mayReach(shape, inShape, reach)) return;
             forEachSurface(shape, inShape, obstacles.law.radius, [&](Surface surface) {
                 surface.normal = pose.rotation * surface.normal;
-                surface.velocity = pose.velocityAt(footOf(surface, point));
+                surface.velocity = pose.velocityAt(point);
                 visit(surface);
             });
         },
