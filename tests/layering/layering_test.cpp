@@ -69,7 +69,7 @@ const std::map<std::string, std::vector<std::string>> kRooms = {
       "studies/oracle", "studies/common"}},
     {"tools",
      {"tools", "tools/commands/study", "tools/commands", "tools/pages", "tools/compare", "tools/mesh", "tools/run",
-      "tools/frames", "tools/system"}},
+      "tools/loads", "tools/frames", "tools/system"}},
     {"mpi", {"mpi"}}};
 
 /// The layout shows the architecture only as long as a room fits on a screen.

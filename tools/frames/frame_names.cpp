@@ -88,7 +88,7 @@ bool isRunFile(const fs::path& file) {
     const std::vector<FrameNames> names = allFrameNames();
     return std::ranges::any_of(names, [&](const FrameNames& each) { return each.frameOf(file).has_value(); }) ||
            isCheckpointName(file) || isManifestName(file) || file.filename() == "run.json" ||
-           file.filename() == kVtpSeriesName;
+           file.filename() == kLoadsName || file.filename() == kVtpSeriesName;
 }
 
 std::vector<fs::path> filesIn(const fs::path& folder) {

@@ -47,6 +47,9 @@ std::vector<FrameNames> allFrameNames();
 /// The file that lists the .vtp files of a folder, for ParaView.
 inline constexpr const char* kVtpSeriesName = "particles.vtp.series";
 
+/// The table of the loads of a run's obstacles; load_table.h has its columns.
+inline constexpr const char* kLoadsName = "loads.csv";
+
 /// Extension of checkpoints, which are numbered by frame.
 inline constexpr std::string_view kCheckpointExtension = ".state";
 
@@ -63,7 +66,7 @@ std::string manifestName(const std::optional<Chunk>& chunk);
 bool isManifestName(const std::filesystem::path& file);
 
 /// Whether a run may write a file of this name into its folder: a frame, a checkpoint, a manifest,
-/// run.json or the series of .vtp files.
+/// run.json, loads.csv or the series of .vtp files.
 bool isRunFile(const std::filesystem::path& file);
 
 /// The files in a folder, in no order.

@@ -35,6 +35,15 @@ int frameNumber(const Json& json) {
     return json.get<int>();
 }
 
+/// How many bytes of a checkpoint's file are the text of loads.csv.
+std::size_t loadBytesOf(const Json& checkpoint) {
+    if (!checkpoint.contains("load_bytes")) return 0;
+    const Json& bytes = checkpoint["load_bytes"];
+    if (!bytes.is_number_unsigned())
+        throw render::SystemError(fmt::format("{} is not a number of bytes", compactText(bytes)));
+    return bytes.get<std::size_t>();
+}
+
 std::map<int, FrameRecord> framesOf(const Json& json) {
     std::map<int, FrameRecord> frames;
     for (const auto& [number, frame] : json.items())
@@ -81,7 +90,7 @@ Manifest parsed(const Json& json) {
     for (const Json& checkpoint : json.at("checkpoints")) {
         if (!checkpoint.at("report").is_object()) throw render::SystemError("a checkpoint's report is not an object");
         manifest.checkpoints[frameNumber(checkpoint.at("frame"))] = {checkpoint.at("checksum").get<std::string>(),
-                                                                     checkpoint.at("report")};
+                                                                     checkpoint.at("report"), loadBytesOf(checkpoint)};
     }
     return manifest;
 }
@@ -98,8 +107,10 @@ std::string checksumOf(std::span<const std::uint8_t> bytes) {
 
 std::string encodeManifest(const Manifest& manifest) {
     Json checkpoints = Json::array();
-    for (const auto& [frame, checkpoint] : manifest.checkpoints)
+    for (const auto& [frame, checkpoint] : manifest.checkpoints) {
         checkpoints.push_back({{"frame", frame}, {"checksum", checkpoint.checksum}, {"report", checkpoint.report}});
+        if (checkpoint.loadBytes > 0) checkpoints.back()["load_bytes"] = checkpoint.loadBytes;
+    }
     const std::string planned =
         manifest.planned ? fmt::format(" \"planned\": [{}, {}],\n", manifest.planned->first, manifest.planned->second)
                          : "";

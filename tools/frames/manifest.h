@@ -23,8 +23,9 @@ struct FrameRecord {
 
 /// What the manifest records of the file of one checkpoint.
 struct CheckpointRecord {
-    std::string checksum;  ///< checksum of the file
-    Json report;           ///< what the run had measured when the checkpoint was written
+    std::string checksum;       ///< checksum of the file
+    Json report;                ///< what the run had measured when the checkpoint was written
+    std::size_t loadBytes = 0;  ///< how much of the file's end is the text of loads.csv up to its frame
 };
 
 /// What the manifest of a chunk records besides.

@@ -10,10 +10,12 @@
 #include <limits>
 #include <utility>
 
+#include "engine/core/hash.h"
 #include "engine/run/checkpoint.h"
 #include "render/output/atomic_file.h"
 #include "render/picture/system_error.h"
 #include "scenes/text/input_error.h"
+#include "tools/loads/load_table.h"
 #include "tools/system/json.h"
 #include "tools/system/output_file.h"
 #include "tools/system/process.h"
@@ -48,6 +50,36 @@ bool isCheckpoint(const fs::path& file) {
 bool isRunReport(const fs::path& file) {
     const Json json = Json::parse(readFile(file), nullptr, false);
     return json.is_object() && json.contains("scene_hash") && json.contains("state_hash");
+}
+
+/// Whether a loads.csv begins as LoadTable does.
+bool isLoadTable(const fs::path& file) {
+    std::string beginning(kLoadsHead.size(), '\0');
+    std::ifstream(file, std::ios::binary).read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+    return beginning == kLoadsHead;
+}
+
+/// Writes the file of a checkpoint: the state, and after it the text of loads.csv. Returns what the manifest records.
+CheckpointRecord writeFileOf(const Checkpoint& checkpoint, const fs::path& path) {
+    const std::string& loads = checkpoint.loads;
+    render::AtomicFile file(path);
+    file.write(checkpoint.state);
+    file.write({reinterpret_cast<const std::uint8_t*>(loads.data()), loads.size()});
+    file.commit();
+    const std::uint64_t hash = engine::fnv1a(loads, engine::fnv1aOf(checkpoint.state));
+    return {engine::hexadecimal(hash), checkpoint.report, loads.size()};
+}
+
+/// Reads what writeFileOf() has written.
+/// @throws std::exception if the file is not as the manifest has it
+RestartPoint readCheckpoint(const fs::path& path, int frame, const CheckpointRecord& record,
+                            const engine::Setup& setup) {
+    const std::vector<std::uint8_t> bytes = readFile(path);
+    if (checksumOf(bytes) != record.checksum || bytes.size() < record.loadBytes)
+        throw engine::CheckpointError("it is damaged or truncated");
+    const auto state = std::span(bytes).first(bytes.size() - record.loadBytes);
+    const auto loads = std::span(bytes).last(record.loadBytes);
+    return {frame, engine::decodeCheckpoint(setup, state), {loads.begin(), loads.end()}, record.report};
 }
 
 /// The names of the frames that a manifest lists: pictures of `render`, meshes of `mesh` or states of `simulate`.
@@ -142,6 +174,7 @@ void FrameFolder::requireOwnFiles(const std::vector<fs::path>& files, bool isDam
         const bool isOwn = names != all.end()                  ? isDamaged || isListed(*names, file)
                            : isCheckpointName(file)            ? isCheckpoint(file)
                            : file.filename() == "run.json"     ? isRunReport(file)
+                           : file.filename() == kLoadsName     ? isLoadTable(file)
                            : file.filename() == kVtpSeriesName ? isDamaged || anyManifest(hasSeries)
                                                                : true;
         if (!isOwn) failForeign(file);
@@ -236,9 +269,7 @@ std::optional<RestartPoint> FrameFolder::restartPoint(const engine::Setup& setup
         const auto& [frame, record] = *--next;
         const fs::path path = folder_ / checkpointNames().fileName(frame);
         try {
-            const auto bytes = readFile(path);
-            if (checksumOf(bytes) != record.checksum) throw engine::CheckpointError("it is damaged or truncated");
-            return RestartPoint{frame, engine::decodeCheckpoint(setup, bytes), record.report};
+            return readCheckpoint(path, frame, record, setup);
         } catch (const std::bad_alloc&) {
             throw;  // an earlier checkpoint would need as much
         } catch (const std::exception& error) {
@@ -256,10 +287,9 @@ void FrameFolder::write(int frame, const FrameNames& names, std::span<const std:
     if (std::chrono::steady_clock::now() - lastManifest_ > kManifestInterval) writeManifest();
 }
 
-void FrameFolder::writeCheckpoint(int frame, std::span<const std::uint8_t> bytes, const Json& report) {
-    writeFile(folder_ / checkpointNames().fileName(frame), bytes);
+void FrameFolder::writeCheckpoint(int frame, const Checkpoint& checkpoint) {
     auto& all = manifest_.checkpoints;
-    all[frame] = {checksumOf(bytes), report};
+    all[frame] = writeFileOf(checkpoint, folder_ / checkpointNames().fileName(frame));
     // A longer run may have left checkpoints after this frame. The newest is kept, for that run to resume from.
     const auto later = all.upper_bound(frame);
     if (later != all.end()) all.erase(later, std::prev(all.end()));
@@ -268,6 +298,11 @@ void FrameFolder::writeCheckpoint(int frame, std::span<const std::uint8_t> bytes
     for (const fs::path& file : filesIn(folder_))
         if (const auto old = checkpointNames().frameOf(file); old && all.count(*old) == 0 && isCheckpoint(file))
             removeFile(file);
+    writeLoads(checkpoint.loads);
+}
+
+void FrameFolder::writeLoads(const std::string& text) const {
+    if (!chunk_ && !text.empty()) writeFile(folder_ / kLoadsName, text);
 }
 
 void FrameFolder::writeReport(const Json& json) {

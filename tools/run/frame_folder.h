@@ -31,11 +31,19 @@ struct FrameIndex {
     std::function<std::string(const std::vector<int>& frames)> encode;
 };
 
+/// What a run writes to be resumed from a frame.
+struct Checkpoint {
+    std::vector<std::uint8_t> state;  ///< engine::encodeCheckpoint()
+    std::string loads;                ///< the text of loads.csv up to the frame; empty if no loads are recorded
+    Json report;                      ///< what the run has measured so far
+};
+
 /// A state to resume from, as read from a checkpoint.
 struct RestartPoint {
     int frame = 0;
     engine::Simulation simulation;
-    Json report;  ///< what the run had measured when the checkpoint was written
+    std::string loads;  ///< the text of loads.csv up to the frame
+    Json report;        ///< what the run had measured when the checkpoint was written
 };
 
 /// The output folder of a run. It is locked while the object exists.
@@ -82,11 +90,12 @@ class FrameFolder {
     /// Writes an index of the frames that are there, and again whenever the manifest is written.
     void keepIndex(FrameIndex index);
 
-    /// Writes a checkpoint of a frame. The last two up to this frame are kept, and the newest of all.
-    /// @param bytes  engine::encodeCheckpoint()
-    /// @param report  what the run has measured so far
+    /// Writes a checkpoint of a frame, and loads.csv. The last two up to this frame are kept, and the newest of all.
     /// @pre the files of all frames up to this one are written
-    void writeCheckpoint(int frame, std::span<const std::uint8_t> bytes, const Json& report);
+    void writeCheckpoint(int frame, const Checkpoint& checkpoint);
+
+    /// Writes loads.csv, unless its text is empty or the run is a chunk, of which there may be several in the folder.
+    void writeLoads(const std::string& text) const;
 
     /// Writes run.json, or for a chunk what would be in it into the chunk's manifest.
     void writeReport(const Json& json);

@@ -49,6 +49,7 @@ FrameSequence::FrameSequence(const scenes::Scene& scene, FrameList frames, const
     withMemoryForParticles(scene_.setup.initial.count(), [this] {
         if (folder_ == nullptr || !resume()) run_.simulation = host_.start(scene_);
     });
+    if (position_ < 0) loads_ = LoadTable(run_.simulation);
     run_.simulation.beforeStep = [this](const engine::Simulation& simulation) {
         progress_.stepBegins(simulation.time);
         if (mustStop()) throw engine::Stopped();
@@ -65,6 +66,7 @@ bool FrameSequence::resume() {
     if (!restart) return false;
     position_ = restart->frame;
     run_.simulation = std::move(restart->simulation);
+    loads_ = LoadTable(run_.simulation, std::move(restart->loads));
     host_.resume(scene_, run_.simulation);
     if (estimatesErrors_ && restart->report.value("frames", Json()) == hashOf(frames_))
         run_.report.errors = decodeErrors(restart->report);
@@ -73,8 +75,10 @@ bool FrameSequence::resume() {
     return true;
 }
 
-std::vector<std::uint8_t> FrameSequence::checkpoint() {
-    return withMemoryForParticles(run_.simulation.particles.count(), [&] { return host_.checkpoint(run_.simulation); });
+Checkpoint FrameSequence::checkpoint() {
+    return withMemoryForParticles(run_.simulation.particles.count(), [&] {
+        return Checkpoint{host_.checkpoint(run_.simulation), loads_.text(), checkpointReport()};
+    });
 }
 
 std::optional<SequencedFrame> FrameSequence::next() {
@@ -101,7 +105,6 @@ std::optional<SequencedFrame> FrameSequence::next() {
     const std::chrono::duration<double> sinceCheckpoint = std::chrono::steady_clock::now() - lastCheckpoint_;
     if (isNew && sinceCheckpoint.count() >= folder_->checkpointSeconds()) {
         frame.checkpoint = checkpoint();
-        frame.report = checkpointReport();
         lastCheckpoint_ = std::chrono::steady_clock::now();
     }
     return frame;
@@ -120,6 +123,7 @@ bool FrameSequence::advanceTo(int frame) {
             host_.advanceToFrame(scene_, run_.simulation, frame);
         }
         position_ = frame;
+        if (frame > 0) loads_.add(run_.simulation, frameTime(frame), scene_.fps.timeOf(1));
         if (!estimatesErrors_ || !isSampled(frames_, frame)) return true;
         const Progress::Work work(progress_, fmt::format("error of frame {}", frame), frameTime(frame),
                                   frameTime(frame + 1));
@@ -145,7 +149,7 @@ void FrameSequence::finish() {
     // A simulation that became unstable or was stopped has no state of a frame, and a checkpoint needs all frames
     // before it to be written.
     if (recordStop() || !report.unstable.empty()) return;
-    if (folder_ != nullptr && position_ >= 0) folder_->writeCheckpoint(position_, checkpoint(), checkpointReport());
+    if (folder_ != nullptr && position_ >= 0) folder_->writeCheckpoint(position_, checkpoint());
     report.stateHash = engine::stateHash(run_.simulation.particles);
     run_.energy = host_.energy(run_.simulation);
 }
@@ -154,6 +158,7 @@ FinishedRun FrameSequence::take() {
     if (folder_ != nullptr) {
         run_.json = runJson(scene_, run_);
         warnOfStrays(run_.simulation);
+        folder_->writeLoads(loads_.text());
         folder_->writeReport(run_.json);
     }
     run_.simulation.beforeStep = nullptr;  // refers to this object

@@ -7,6 +7,7 @@
 
 #include "scenes/model/scene.h"
 #include "tools/frames/frame_list.h"
+#include "tools/loads/load_table.h"
 #include "tools/run/frame_source.h"
 #include "tools/run/simulation_host.h"
 
@@ -35,7 +36,7 @@ class FrameSequence : public FrameSource {
 
  private:
     bool resume();
-    std::vector<std::uint8_t> checkpoint();
+    Checkpoint checkpoint();
     bool advanceTo(int frame);
     Json checkpointReport() const;
 
@@ -45,6 +46,7 @@ class FrameSequence : public FrameSource {
     SimulationHost own_;
     SimulationHost& host_;
     int position_ = -1;  ///< the frame that the simulation is at; -1 before the first
+    LoadTable loads_;    ///< up to that frame
     int next_ = 0;
     std::chrono::steady_clock::time_point lastCheckpoint_;
 };

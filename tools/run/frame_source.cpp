@@ -32,7 +32,7 @@ void FrameSource::store(const SequencedFrame& frame, std::span<const std::uint8_
 }
 
 void FrameSource::storeCheckpoint(const SequencedFrame& frame) {
-    if (!frame.checkpoint.empty()) folder_->writeCheckpoint(frame.number, frame.checkpoint, frame.report);
+    if (frame.checkpoint) folder_->writeCheckpoint(frame.number, *frame.checkpoint);
 }
 
 bool FrameSource::recordStop() {

@@ -24,8 +24,7 @@ struct SequencedFrame {
     bool isWanted = true;   ///< whether the frame was asked for; if not, it is simulated, but not written
     bool isKept = false;    ///< the frame's files exist already; the simulation may be at another frame
     std::string stateHash;  ///< hash of the particles; empty if the frame gets no file
-    std::vector<std::uint8_t> checkpoint;  ///< encoded checkpoint of this frame; empty if none is due
-    Json report;                           ///< what the run has measured so far, for the checkpoint
+    std::optional<Checkpoint> checkpoint;  ///< of this frame; nothing if none is due
 };
 
 class FrameSource {

@@ -14,6 +14,7 @@
 #include "engine/run/strays.h"
 #include "engine/stepping/take_step.h"
 #include "render/picture/system_error.h"
+#include "tools/loads/load_table.h"
 #include "tools/run/emission_report.h"
 #include "tools/run/run_warnings.h"
 #include "tools/system/json.h"
@@ -124,20 +125,6 @@ engine::ErrorSamples decodeErrors(const Json& json) {
     if (count < 0 || count > kMostSamples) return {};
     return {static_cast<int>(count), json["sum"].get<double>(), json["largest"].get<double>(),
             json["evaluation_cost"].get<double>()};
-}
-
-/// What the particles have done to each obstacle whose load is recorded: the opposite of what it has given them.
-Json loadsJson(const engine::Simulation& simulation) {
-    Json list = Json::array();
-    for (std::size_t k = 0; k < simulation.loads.size(); ++k) {
-        if (!engine::isRecorded(simulation.setup.obstacles, k)) continue;
-        const engine::ObstacleLoad& load = simulation.loads[k];
-        list.push_back({{"obstacle", k + 1},
-                        {"impulse", vectorJson(-load.impulse)},
-                        {"angular_impulse", vectorJson(-load.angularImpulse)},
-                        {"work", load.work}});
-    }
-    return list;
 }
 
 void addTo(Json& json, const RendererRecord& renderer) {
