@@ -3,27 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <string_view>
-
-#include "render/output/child_process.h"
-#include "render/picture/system_error.h"
 #include "tools/system/command_files.h"
+#include "tools/system/gnuplot.h"
 #include "tools/system/output_file.h"
 #include "tools/system/process.h"
 #include "tools/system/text.h"
 
 namespace tools {
-namespace {
-
-render::ChildProcess startGnuplot() {
-    try {
-        return render::ChildProcess({"gnuplot", "-"});
-    } catch (const render::ProgramMissing& error) {
-        throw render::SystemError(fmt::format("{}; install gnuplot (Debian: gnuplot-nox) for the plots", error.what()));
-    }
-}
-
-}  // namespace
 
 void addStudyFlags(CLI::App& command, StudyOptions& options, const std::string& quickHelp) {
     options.name = command.get_name();
@@ -60,22 +46,8 @@ void reportProgress(const StudyOptions& options, const Json& json, const std::st
     if (options.run.verbosity() == Verbosity::normal) printToStderr(line);
 }
 
-// The script is piped to gnuplot and the SVG is read from its output, so that gnuplot writes no files.
 std::string writePlot(const StudyOptions& options, const std::string& fileName, const std::string& script) {
-    render::ChildProcess gnuplot = startGnuplot();
-    const bool taken = gnuplot.write({reinterpret_cast<const std::uint8_t*>(script.data()), script.size()});
-    const std::string ending = gnuplot.wait();
-    constexpr std::size_t kMostBytes = 64U << 20;  // limit on gnuplot's output; the plots take about 50 kB
-    const std::string output = gnuplot.output(kMostBytes);
-    constexpr std::string_view kEnd = "</svg>";
-    const std::size_t first = output.find("<?xml");
-    const std::size_t last = output.rfind(kEnd);
-    const bool whole = first != std::string::npos && last != std::string::npos;
-    // Output before the picture consists of warnings.
-    if (!taken || !ending.empty() || !whole)
-        throw render::SystemError(
-            fmt::format("gnuplot ended with {}: {}", ending.empty() ? "no plot" : ending, output.substr(0, first)));
-    const std::string svg = output.substr(first, last + kEnd.size() - first) + "\n";
+    std::string svg = drawWithGnuplot(script);
     writeFile(std::filesystem::path(options.folder) / fileName, svg);
     return svg;
 }

@@ -44,7 +44,7 @@ std::string commandLineOf(const StudyOptions& options, const std::vector<std::st
 void reportProgress(const StudyOptions& options, const Json& json, const std::string& line);
 
 /// Draws a plot with gnuplot, writes it into the study's folder, and returns it as SVG.
-/// @throws render::SystemError naming the package if gnuplot is missing, or with gnuplot's own message if it fails
+/// @throws as drawWithGnuplot() does
 std::string writePlot(const StudyOptions& options, const std::string& fileName, const std::string& script);
 
 /// Writes index.html into the study's folder and reports that the study is done.
