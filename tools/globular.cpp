@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
     tools::addCompareCommand(program);
     tools::addApproveCommand(program);
     tools::addCheckCommand(program);
+    tools::addPlotCommand(program);
     tools::addScenesCommand(program);
     tools::addDevicesCommand(program);
     tools::addSchemaCommand(program);

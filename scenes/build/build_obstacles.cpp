@@ -188,6 +188,7 @@ void buildObstacle(Section& section, const VoxelGrid& grid, const Section& look,
     if (!section.isValid()) return;
     const std::size_t index = obstacles.shapes.size();
     obstacles.shapes.push_back(built.shape);
+    scene.obstacleShapes.push_back(section.string("shape"));
     obstacles.surfaces.push_back(surfaceFrom(section, obstacles.wall, context));
     obstacles.motions.push_back(motion);
     obstacles.areRecorded.push_back(section.boolean("record"));

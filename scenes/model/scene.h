@@ -48,6 +48,7 @@ struct Scene {
     engine::Setup setup;
     std::vector<engine::Vec3> materialColors;  ///< linear RGB of the particles, one for each of the setup's materials
     std::vector<std::string> materialNotes;    ///< for each material why mass, b1 and bd are what they are, or empty
+    std::vector<std::string> obstacleShapes;   ///< for each obstacle its shape, as the scene file names it
     std::vector<BodyColumn> bodyColumns;       ///< one for each body
     std::vector<std::string> meshNotes;        ///< one for each body of a mesh: its volume, voxels and memory
     CameraPath camera;

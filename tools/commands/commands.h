@@ -24,6 +24,7 @@ void addAssembleCommand(CLI::App& program);
 void addCompareCommand(CLI::App& program);
 void addApproveCommand(CLI::App& program);
 void addCheckCommand(CLI::App& program);
+void addPlotCommand(CLI::App& program);
 void addDevicesCommand(CLI::App& program);
 void addScenesCommand(CLI::App& program);
 void addSchemaCommand(CLI::App& program);

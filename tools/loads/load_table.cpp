@@ -28,12 +28,13 @@ std::string fieldsOf(const Vec3& vector) {
 
 }  // namespace
 
-Json loadsJson(const engine::Simulation& simulation) {
+Json loadsJson(const scenes::Scene& scene, const engine::Simulation& simulation) {
     Json list = Json::array();
     for (std::size_t k = 0; k < simulation.loads.size(); ++k) {
         if (!engine::isRecorded(simulation.setup.obstacles, k)) continue;
         const ObstacleLoad load = onObstacle(simulation.loads[k]);
         list.push_back({{"obstacle", k + 1},
+                        {"shape", scene.obstacleShapes[k]},
                         {"impulse", listOf(load.impulse)},
                         {"angular_impulse", listOf(load.angularImpulse)},
                         {"work", load.work}});

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/state/simulation.h"
+#include "scenes/model/scene.h"
 #include "tools/system/json.h"
 
 namespace tools {
@@ -19,7 +20,7 @@ inline constexpr std::string_view kLoadsHead =
     "impulse_x_Ns,impulse_y_Ns,impulse_z_Ns,work_J\n";
 
 /// The loads of the recorded obstacles at the present state as JSON, for run.json: an object for each of them.
-Json loadsJson(const engine::Simulation& simulation);
+Json loadsJson(const scenes::Scene& scene, const engine::Simulation& simulation);
 
 /// The file's text as it grows with a run.
 class LoadTable {

@@ -157,7 +157,7 @@ Json runJson(const scenes::Scene& scene, FinishedRun& run) {
     json["walls"] = {{"held", simulation.steps.held},
                      {"deepest", simulation.wallDepths.deepest},
                      {"centers_outside", simulation.wallDepths.centersOutside}};
-    if (!simulation.loads.empty()) json["obstacles"] = loadsJson(simulation);
+    if (!simulation.loads.empty()) json["obstacles"] = loadsJson(scene, simulation);
     json["frames"] = report.frames;
     json["resumed_from"] = report.resumedFrom ? Json(*report.resumedFrom) : Json(nullptr);
     json["interrupted"] = report.interruptedBy != 0;
