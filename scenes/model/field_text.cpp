@@ -11,10 +11,6 @@ namespace {
 
 using engine::Vec3;
 
-std::string vectorText(const Vec3& vector) {
-    return fmt::format("({:.4g}, {:.4g}, {:.4g})", vector.x(), vector.y(), vector.z());
-}
-
 std::string lawText(const engine::UniformField& field) {
     return fmt::format("acceleration of {} m/s^2", vectorText(field.acceleration));
 }
@@ -43,6 +39,10 @@ std::string boxText(const engine::BoundingBox& box) {
 }
 
 }  // namespace
+
+std::string vectorText(const Vec3& vector) {
+    return fmt::format("({:.4g}, {:.4g}, {:.4g})", vector.x(), vector.y(), vector.z());
+}
 
 std::string fieldText(const engine::Field& field) {
     std::string text = std::visit([](const auto& law) { return lawText(law); }, field.law);

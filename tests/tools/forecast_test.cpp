@@ -138,6 +138,27 @@ TEST_CASE("check tells what starts in the wrong place, and comes to an end", "[f
     CHECK(secondsOfDrawing("[2560,1440]") > 3.0 * secondsOfDrawing("[64,36]"));  // it has 1600 times the pixels
 }
 
+TEST_CASE("check says what moves, a line for each of the first twelve", "[forecast]") {
+    const program::Folder folder;
+    const std::string path = (folder / "s.toml").string();
+    std::ofstream(path) << "title = \"t\"\nduration = 0.1\n[[body]]\nshape = \"ball\"\nradius = 0.3\n";
+    CHECK(program::run("check " + path).out.find("\nmotion ") == std::string::npos);
+    for (int k = 0; k < 14; ++k)
+        std::ofstream(path, std::ios::app) << "[[obstacle]]\nshape = \"sphere\"\nradius = 1\nvelocity = [0, -1, 0]\n"
+                                           << "center = [0, -" << 3 * k + 3 << ", 0]\n";
+    const std::string text = program::run("check " + path).out;
+    CHECK(text.find("\nmotion     obstacle 12 (sphere): moves at 1 m/s along -y\nmotion     ... 14 in all\n") !=
+          std::string::npos);
+    CHECK(text.find("obstacle 13 (") == std::string::npos);
+    const auto json = nlohmann::json::parse(program::run("check --json " + path).out)["motions"];
+    REQUIRE(json.size() == 14);
+    CHECK(json[13]["number"] == 14);
+    CHECK(json[13]["what"] == "obstacle");
+    CHECK(json[13]["shape"] == "sphere");
+    CHECK(json[13]["fastest"] == 1.0);
+    CHECK(json[13]["text"] == "moves at 1 m/s along -y");
+}
+
 TEST_CASE("check says what ranks would gain, if it is asked", "[forecast]") {
     const auto ranks = [](const std::string& flags) {
         return nlohmann::json::parse(program::run("check --json solid " + flags).out).value("ranks", nlohmann::json());

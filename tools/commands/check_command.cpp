@@ -21,6 +21,7 @@
 #include "scenes/model/field_text.h"
 #include "scenes/warnings/start_warnings.h"
 #include "studies/scaling/rank_model.h"
+#include "tools/commands/check_motions.h"
 #include "tools/commands/commands.h"
 #include "tools/run/forecast.h"
 #include "tools/run/run_report.h"
@@ -138,6 +139,7 @@ Json sceneJson(const scenes::Scene& scene) {
     json["uniform"] = terms.uniform();
     json["cutoff"] = terms.cutoff;
     json["obstacles"] = scene.setup.obstacles.shapes.size();
+    json["motions"] = motionsJson(scene);
     json["fields"] = Json::array();
     for (const engine::Field& field : scene.setup.fields) json["fields"].push_back(scenes::fieldText(field));
     json["stepper"] = engine::nameOf(scene.setup.stepper);
@@ -352,6 +354,7 @@ std::string checkText(const Json& json) {
     text += bodiesText(json["bodies"]);
     for (const Json& mesh : json["meshes"]) text += fmt::format("mesh       {}\n", mesh.get<std::string>());
     text += fmt::format("obstacles  {}\n", json["obstacles"].get<std::size_t>());
+    text += motionsText(json["motions"]);
     for (const Json& field : json["fields"]) text += fmt::format("field      {}\n", field.get<std::string>());
     text += predictedText(json);
     text += ranksText(json);
