@@ -291,7 +291,8 @@ std::vector<Key> obstacleKeys() {
         key("until", Type::number, "s", "the obstacle is taken away at this time")
             .derivedAs("no end")
             .within(kPositive),
-        key("record", Type::boolean, "", "whether its load (impulse, angular impulse and work) is recorded in run.json")
+        key("record", Type::boolean, "",
+            "whether its load (impulse, angular impulse and work) is recorded in run.json and loads.csv")
             .derivedAs("true for what moves"),
         key("restitution", Type::number, "", "speed after a rebound over the speed before; not of the paper's walls")
             .derivedAs("0.2, less for viscous materials")
