@@ -1,6 +1,7 @@
 // Tests loads.csv: that its numbers are those of run.json, and that it has the same bytes for any number of threads and
 // however often the run was interrupted.
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 #include <vector>
 
@@ -127,6 +128,13 @@ TEST_CASE("loads.csv is the same for any number of threads, of `render`, and aft
     fs::remove(scene.folder / "a/loads.csv");  // the checkpoints know what was in it
     REQUIRE(run(often).code == 0);
     CHECK(early_ends::runOf(scene.folder / "a")["resumed_from"].is_number());
+    CHECK(scene.loads("a") == whole);
+
+    // Checkpoints that are shorter than the manifest says are not used.
+    const fs::path manifest = scene.folder / "a/manifest.json";
+    program::writeText(manifest, std::regex_replace(textOf(manifest), std::regex("\"load_bytes\":"), "$&9999"));
+    REQUIRE(run(often).code == 0);
+    CHECK(early_ends::runOf(scene.folder / "a")["resumed_from"].is_null());
     CHECK(scene.loads("a") == whole);
 
     // A shorter run has fewer rows, and the longer one goes on from its own checkpoint.
