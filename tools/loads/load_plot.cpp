@@ -169,7 +169,7 @@ std::string loadPlotScript(const LoadsOverTime& loads, const LoadFigure& figure)
 set border linecolor rgb '#444444'
 set xzeroaxis linetype 1 linewidth 1 linecolor rgb '#888888'
 set tics nomirror
-set key at graph 1,1.02 right bottom horizontal samplen 1.2 width -1 font ',13'
+set key at graph 1,1.02 right bottom horizontal samplen 1.2 width -0.5 font ',13'
 )";
     for (const auto& [obstacle, name] : figure.names) text += dataOf(obstacle, loads.at(obstacle));
     text += fmt::format("set xrange [0:{}]\nset multiplot title {} font ',18'\n",
