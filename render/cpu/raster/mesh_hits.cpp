@@ -12,6 +12,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "render/cpu/raster/block_samples-inl.h"
 #include "render/cpu/raster/triangle_setup.h"
 #include "render/prepare/simd_rays-inl.h"
 
@@ -19,94 +20,10 @@ HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 
-/// Side of a block of pixels. A small triangle touches fewer blocks than parts of rows.
-constexpr int kBlockSide = 4;
-constexpr int kBlocksInRow = kTileSize / kBlockSide;
-
-/// The columns and rows of a tile's pixels, one block after another.
-struct BlockPlaces {
-    alignas(64) std::array<float, kTilePixels> column{}, row{};
-
-    constexpr BlockPlaces() {
-        for (std::size_t k = 0; k < kTilePixels; ++k) {
-            const std::size_t block = k / (kBlockSide * kBlockSide);
-            column[k] = static_cast<float>(block % kBlocksInRow * kBlockSide + k % kBlockSide);
-            row[k] = static_cast<float>(block / kBlocksInRow * kBlockSide + k / kBlockSide % kBlockSide);
-        }
-    }
-};
-
-constexpr BlockPlaces kBlockPlaces;
-
-/// The samples of a tile, one block of pixels after another.
-struct BlockSamples {
-    alignas(64) std::array<std::array<float, kTilePixels>, 4> depth;
-    alignas(64) std::array<std::array<std::int32_t, kTilePixels>, 4> hitId;
-    alignas(64) std::array<float, kTilePixels> farthest;  ///< the greatest depth of a pixel's samples so far
-    std::size_t count;                                    ///< number of samples
-
-    explicit BlockSamples(std::span<const TileRays> samples) : count(samples.size()) {
-        forParts([&](std::size_t inBlocks, std::size_t inRows) {
-            for (std::size_t s = 0; s < count; ++s) {
-                std::copy_n(&samples[s].depth[inRows], kBlockSide, &depth[s][inBlocks]);
-                std::copy_n(&samples[s].hitId[inRows], kBlockSide, &hitId[s][inBlocks]);
-            }
-        });
-        for (std::size_t k = 0; k < kTilePixels; ++k) {
-            farthest[k] = depth[0][k];
-            for (std::size_t s = 1; s < count; ++s) farthest[k] = std::max(farthest[k], depth[s][k]);
-        }
-    }
-
-    void copyTo(std::span<TileRays> samples) const {
-        forParts([&](std::size_t inBlocks, std::size_t inRows) {
-            for (std::size_t s = 0; s < count; ++s) {
-                std::copy_n(&depth[s][inBlocks], kBlockSide, &samples[s].depth[inRows]);
-                std::copy_n(&hitId[s][inBlocks], kBlockSide, &samples[s].hitId[inRows]);
-            }
-        });
-    }
-
-    float farthestOfTile() const {
-        const D d;
-        V most = load(farthest.data());
-        for (std::size_t first = hn::Lanes(d); first < kTilePixels; first += hn::Lanes(d))
-            most = hn::Max(most, load(&farthest[first]));
-        return hn::GetLane(hn::MaxOfLanes(d, most));
-    }
-
- private:
-    /// Calls visit(index in the blocks, index in the rows of the tile) for the first pixel of each row of each block.
-    template <typename Visit>
-    static void forParts(const Visit& visit) {
-        for (std::size_t part = 0; part < kTilePixels / kBlockSide; ++part) {
-            const std::size_t block = part / kBlockSide;
-            const std::size_t row = block / kBlocksInRow * kBlockSide + part % kBlockSide;
-            visit(kBlockSide * part, row * kTileSize + block % kBlocksInRow * kBlockSide);
-        }
-    }
-};
-
-/// The linear functions of a triangle at the samples of pixels: at column and row of a pixel, without the sample's
-/// offset from the pixel's corner, which is in `offsets`.
-struct SampledSetup {
-    std::array<glm::vec2, 4> slopes;  ///< of the three edge functions and of the depth
-    std::array<std::array<float, 4>, 4> offsets;
-
-    SampledSetup(const TriangleSetup& setup, std::span<const glm::vec2> samples) {
-        const std::array<glm::vec3, 4> functions{setup.edges[0], setup.edges[1], setup.edges[2], setup.depth};
-        for (std::size_t f = 0; f < functions.size(); ++f) {
-            slopes[f] = glm::vec2(functions[f]);
-            for (std::size_t s = 0; s < samples.size(); ++s)
-                offsets[s][f] = functions[f].x * samples[s].x + functions[f].y * samples[s].y + functions[f].z;
-        }
-    }
-};
-
 /// The view depth where a ray meets a triangle, and whether it meets it before the eye.
 /// @param linear  the triangle's function of depth at the ray
 template <bool kPerspective>
-HWY_INLINE V depthOf(V linear, const TriangleSetup& setup, M& isHit) {
+HWY_INLINE V depthOf(V linear, V front, V back, M& isHit) {
     V depth = linear;
     if constexpr (kPerspective) {
         // On the edge of a triangle that is seen at a grazing angle rounding may make the sum 0 or less: it is clamped.
@@ -114,7 +31,7 @@ HWY_INLINE V depthOf(V linear, const TriangleSetup& setup, M& isHit) {
     } else {
         isHit = hn::And(isHit, linear > splat(0.0F));
     }
-    return hn::Min(hn::Max(depth, splat(setup.front)), splat(setup.back));
+    return hn::Min(hn::Max(depth, front), back);
 }
 
 HWY_INLINE void keepNearer(M isHit, V depth, std::int32_t id, float* depths, std::int32_t* hitIds) {
@@ -124,104 +41,144 @@ HWY_INLINE void keepNearer(M isHit, V depth, std::int32_t id, float* depths, std
     storeInt(hn::IfThenElse(hn::RebindMask(DI(), isHit), splatInt(id), loadInt(hitIds)), hitIds);
 }
 
-/// Adds one triangle to all samples of a vector of pixels.
+/// A triangle at the samples of blocks: its functions of a pixel's column and row, and of a sample's offset from its
+/// pixel's corner.
+template <int kSide>
+struct BlockTriangle {
+    std::array<glm::vec2, 4> slopes;  ///< of the three edge functions and of the depth
+    alignas(64) std::array<BlockValues, 4> ofSample;
+    float front, back;  ///< least and greatest view depth, m
+    std::int32_t id;
+
+    BlockTriangle(const TriangleGroup& group, std::size_t number, std::uint32_t index, const BlockPlaces<kSide>& places)
+        : front(group.front[number]), back(group.back[number]), id(kHitTriangle + static_cast<std::int32_t>(index)) {
+        for (std::size_t f = 0; f < 4; ++f) {
+            const glm::vec3 function = (f < 3 ? group.edges[f] : group.depth)[number];
+            slopes[f] = glm::vec2(function);
+            for (std::size_t k = 0; k < kBlock; k += hn::Lanes(D())) {
+                const V across = splat(function.x) * load(&places.offsetX[k]);
+                const V down = splat(function.y) * load(&places.offsetY[k]);
+                store(across + down + splat(function.z), &ofSample[f][k]);
+            }
+        }
+    }
+};
+
+/// Adds triangles to the samples of a tile.
+template <bool kPerspective, int kSide>
+class BlockRaster {
+ public:
+    BlockRaster(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> rays)
+        : geometry_(geometry),
+          tile_(tile),
+          corner_(tileCorner(*geometry.tiles, tile)),
+          rays_(rays),
+          places_(corner_, rays),
+          samples_(rays) {}
+
+    void addAll() {
+        std::span<const std::uint32_t> left = geometry_.meshes->tiles.itemsOf(tile_);
+        while (!left.empty()) {
+            const std::size_t count = std::min(left.size(), TriangleGroup::kMost);
+            if (!addGroup(left.first(count))) break;
+            left = left.subspan(count);
+        }
+        samples_.copyTo(rays_);
+    }
+
+ private:
+    /// @return whether later triangles may be before what has been hit
+    bool addGroup(std::span<const std::uint32_t> indices) {
+        const float farthest = samples_.farthest();
+        const TriangleGroup group = triangleGroup(geometry_, indices, corner_);
+        for (std::size_t k = 0; k < indices.size(); ++k) {
+            // The triangles are listed front to back: all later ones are behind what has been hit.
+            if (group.front[k] > farthest) return false;
+            const Rect touched = withinTile(geometry_.meshes->bounds[indices[k]].pixels, static_cast<int>(corner_.x),
+                                            static_cast<int>(corner_.y));
+            if (touched.x1 < touched.x0 || touched.y1 < touched.y0) continue;
+            add(BlockTriangle<kSide>(group, k, indices[k], places_), touched);
+        }
+        return true;
+    }
+
+    void add(const BlockTriangle<kSide>& triangle, const Rect& touched) {
+        const Rect blocks{touched.x0 / kSide, touched.y0 / kSide, touched.x1 / kSide, touched.y1 / kSide};
+        for (int row = blocks.y0; row <= blocks.y1; ++row)
+            for (std::size_t pixels = 0; pixels < kSide * kSide; pixels += hn::Lanes(D()))
+                addToRow(triangle, blocks, row, pixels);
+    }
+
+    /// Adds a triangle to a row of blocks.
+    /// @param pixels   the first of each block's pixels that a vector takes
+    HWY_INLINE void addToRow(const BlockTriangle<kSide>& triangle, const Rect& blocks, int row, std::size_t pixels) {
+        const V y = load(&places_.row[pixels]) + splat(static_cast<float>(row * kSide));
+        const auto slopeOf = [&](std::size_t f) { return splat(triangle.slopes[f].x); };
+        const auto ofRow = [&](std::size_t f) { return splat(triangle.slopes[f].y) * y; };
+        const std::array<V, 4> slope{slopeOf(0), slopeOf(1), slopeOf(2), slopeOf(3)};
+        const std::array<V, 4> start{ofRow(0), ofRow(1), ofRow(2), ofRow(3)};
+        for (int across = blocks.x0; across <= blocks.x1; ++across) {
+            const V x = load(&places_.column[pixels]) + splat(static_cast<float>(across * kSide));
+            const auto atPixels = [&](std::size_t f) { return slope[f] * x + start[f]; };
+            const std::array<V, 3> edges{atPixels(0), atPixels(1), atPixels(2)};
+            const std::size_t block = samples_.blockAt(across, row);
+            for (std::size_t k = pixels; k < kBlock; k += std::max<std::size_t>(hn::Lanes(D()), kSide * kSide)) {
+                float* depths = &samples_.depth[block + k];
+                if (hn::AllTrue(D(), load(depths) < splat(triangle.front))) continue;
+                const auto at = [&](V ofPixels, std::size_t f) { return ofPixels + load(&triangle.ofSample[f][k]); };
+                M isHit = hn::Min(at(edges[0], 0), hn::Min(at(edges[1], 1), at(edges[2], 2))) >= splat(0.0F);
+                if (none(isHit)) continue;
+                const V depth =
+                    depthOf<kPerspective>(at(atPixels(3), 3), splat(triangle.front), splat(triangle.back), isHit);
+                keepNearer(isHit, depth, triangle.id, depths, &samples_.hitId[block + k]);
+            }
+        }
+    }
+
+    const SolidGeometry& geometry_;
+    std::size_t tile_;
+    glm::vec2 corner_;
+    std::span<TileRays> rays_;
+    BlockPlaces<kSide> places_;
+    BlockSamples<kSide> samples_;
+};
+
+/// Adds one triangle of a group to all rays of a tile.
 template <bool kPerspective>
-HWY_INLINE void addTriangle(const TriangleSetup& setup, const SampledSetup& sampled, std::int32_t id, std::size_t first,
-                            BlockSamples& samples) {
-    const V column = load(&kBlockPlaces.column[first]);
-    const V row = load(&kBlockPlaces.row[first]);
-    const auto atPixel = [&](std::size_t f) {
-        return splat(sampled.slopes[f].x) * column + splat(sampled.slopes[f].y) * row;
-    };
-    const V edge0 = atPixel(0);
-    const V edge1 = atPixel(1);
-    const V edge2 = atPixel(2);
-    bool isAnyHit = false;
-    for (std::size_t s = 0; s < samples.count; ++s) {
-        const std::array<float, 4>& offset = sampled.offsets[s];
-        const V least = hn::Min(edge0 + splat(offset[0]), hn::Min(edge1 + splat(offset[1]), edge2 + splat(offset[2])));
-        M isHit = least >= splat(0.0F);
+void addAnywhere(const TriangleGroup& group, std::size_t number, std::int32_t id, glm::vec2 corner, TileRays& rays) {
+    const V front = splat(group.front[number]);
+    const V back = splat(group.back[number]);
+    for (std::size_t first = 0; first < kTilePixels; first += hn::Lanes(D())) {
+        const V x = load(&rays.x[first]) - splat(corner.x);
+        const V y = load(&rays.y[first]) - splat(corner.y);
+        const auto valueOf = [&](glm::vec3 f) { return splat(f.x) * x + splat(f.y) * y + splat(f.z); };
+        const auto edge = [&](std::size_t k) { return valueOf(group.edges[k][number]); };
+        M isHit = hn::Min(edge(0), hn::Min(edge(1), edge(2))) >= splat(0.0F);
         if (none(isHit)) continue;
-        isAnyHit = true;
-        const V depth = depthOf<kPerspective>(atPixel(3) + splat(offset[3]), setup, isHit);
-        keepNearer(isHit, depth, id, &samples.depth[s][first], &samples.hitId[s][first]);
-    }
-    if (!isAnyHit) return;
-    V most = load(&samples.depth[0][first]);
-    for (std::size_t s = 1; s < samples.count; ++s) most = hn::Max(most, load(&samples.depth[s][first]));
-    store(most, &samples.farthest[first]);
-}
-
-/// Adds one triangle to the pixels of a tile that it touches.
-template <bool kPerspective>
-void addToPixels(const SolidGeometry& geometry, std::uint32_t index, const Rect& touched, glm::vec2 corner,
-                 std::span<const glm::vec2> offsets, BlockSamples& samples) {
-    const D d;
-    const TriangleSetup setup = triangleSetup(geometry, index, corner);
-    const SampledSetup sampled(setup, offsets);
-    const std::int32_t id = kHitTriangle + static_cast<std::int32_t>(index);
-    constexpr std::size_t kBlockPixels = kBlockSide * kBlockSide;
-    for (int down = touched.y0 / kBlockSide; down <= touched.y1 / kBlockSide; ++down) {
-        for (int across = touched.x0 / kBlockSide; across <= touched.x1 / kBlockSide; ++across) {
-            const std::size_t block = static_cast<std::size_t>(down * kBlocksInRow + across) * kBlockPixels;
-            for (std::size_t first = block; first < block + kBlockPixels; first += hn::Lanes(d))
-                if (!hn::AllTrue(d, load(&samples.farthest[first]) < splat(setup.front)))
-                    addTriangle<kPerspective>(setup, sampled, id, first, samples);
-        }
-    }
-}
-
-template <bool kPerspective>
-void addTriangles(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> rays) {
-    const MeshTiles& meshes = *geometry.meshes;
-    const glm::vec2 corner = tileCorner(*geometry.tiles, tile);
-    std::array<glm::vec2, 4> offsets{};
-    for (std::size_t s = 0; s < rays.size(); ++s) offsets[s] = glm::vec2(rays[s].x[0], rays[s].y[0]) - corner;
-    BlockSamples samples(rays);
-    float farthest = samples.farthestOfTile();
-    int added = 0;
-    for (const std::uint32_t index : meshes.tiles.itemsOf(tile)) {
-        const TriangleBounds& bounds = meshes.bounds[index];
-        const Rect touched = withinTile(bounds.pixels, static_cast<int>(corner.x), static_cast<int>(corner.y));
-        if (touched.x1 < touched.x0 || touched.y1 < touched.y0) continue;
-        // The triangles are listed front to back: all later ones are behind what has been hit.
-        if (bounds.front > farthest) break;
-        addToPixels<kPerspective>(geometry, index, touched, corner, std::span(offsets).first(rays.size()), samples);
-        constexpr int kEvery = 16;  // chosen: finding the farthest takes about as long as adding a triangle
-        if (++added % kEvery == 0) farthest = samples.farthestOfTile();
-    }
-    samples.copyTo(rays);
-}
-
-template <bool kPerspective>
-void addTrianglesAnywhere(const SolidGeometry& geometry, std::size_t tile, TileRays& rays) {
-    const D d;
-    const MeshTiles& meshes = *geometry.meshes;
-    const glm::vec2 corner = tileCorner(*geometry.tiles, tile);
-    for (const std::uint32_t index : meshes.tiles.itemsOf(tile)) {
-        const TriangleSetup setup = triangleSetup(geometry, index, corner);
-        const std::int32_t id = kHitTriangle + static_cast<std::int32_t>(index);
-        for (std::size_t first = 0; first < kTilePixels; first += hn::Lanes(d)) {
-            const V x = load(&rays.x[first]) - splat(corner.x);
-            const V y = load(&rays.y[first]) - splat(corner.y);
-            const auto valueOf = [&](glm::vec3 f) { return splat(f.x) * x + splat(f.y) * y + splat(f.z); };
-            M isHit = hn::Min(valueOf(setup.edges[0]), hn::Min(valueOf(setup.edges[1]), valueOf(setup.edges[2]))) >=
-                      splat(0.0F);
-            if (none(isHit)) continue;
-            const V depth = depthOf<kPerspective>(valueOf(setup.depth), setup, isHit);
-            keepNearer(isHit, depth, id, &rays.depth[first], &rays.hitId[first]);
-        }
+        const V depth = depthOf<kPerspective>(valueOf(group.depth[number]), front, back, isHit);
+        keepNearer(isHit, depth, id, &rays.depth[first], &rays.hitId[first]);
     }
 }
 
 void findTileHits(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> samples) {
-    geometry.frame.perspective ? addTriangles<true>(geometry, tile, samples)
-                               : addTriangles<false>(geometry, tile, samples);
+    const bool isPerspective = geometry.frame.perspective;
+    if (samples.size() == 1) {
+        isPerspective ? BlockRaster<true, 4>(geometry, tile, samples).addAll()
+                      : BlockRaster<false, 4>(geometry, tile, samples).addAll();
+    } else {
+        isPerspective ? BlockRaster<true, 2>(geometry, tile, samples).addAll()
+                      : BlockRaster<false, 2>(geometry, tile, samples).addAll();
+    }
 }
 
 void findHitsAnywhere(const SolidGeometry& geometry, std::size_t tile, TileRays& rays) {
-    geometry.frame.perspective ? addTrianglesAnywhere<true>(geometry, tile, rays)
-                               : addTrianglesAnywhere<false>(geometry, tile, rays);
+    const glm::vec2 corner = tileCorner(*geometry.tiles, tile);
+    for (const std::uint32_t& index : geometry.meshes->tiles.itemsOf(tile)) {
+        const TriangleGroup group = triangleGroup(geometry, {&index, 1}, corner);
+        const std::int32_t id = kHitTriangle + static_cast<std::int32_t>(index);
+        geometry.frame.perspective ? addAnywhere<true>(group, 0, id, corner, rays)
+                                   : addAnywhere<false>(group, 0, id, corner, rays);
+    }
 }
 
 }  // namespace HWY_NAMESPACE

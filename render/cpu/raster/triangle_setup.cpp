@@ -27,12 +27,20 @@ double inversePowerOfTwo(double number) {
     return std::bit_cast<double>(std::clamp<std::uint64_t>(2046U - exponent, 1U, 2046U) << 52U);
 }
 
+void setFunction(TriangleGroup::Functions& functions, std::size_t k, const glm::dvec3& function) {
+    functions.x[k] = static_cast<float>(function.x);
+    functions.y[k] = static_cast<float>(function.y);
+    functions.z[k] = static_cast<float>(function.z);
+}
+
 /// Sets the functions of a triangle of which a part lies behind the eye.
-void setUpCut(const SolidGeometry& geometry, const DrawnTriangle& triangle, glm::dvec2 corner, TriangleSetup& setup) {
+/// @param k  the triangle's number in the group
+void setUpCut(const SolidGeometry& geometry, const DrawnTriangle& triangle, glm::dvec2 corner, std::size_t k,
+              TriangleGroup& group) {
     using glm::dvec3;
     std::array<dvec3, 3> points;
-    for (std::size_t k = 0; k < 3; ++k)
-        points[k] = homogeneousOnPicture(geometry.frame, geometry.meshes->meshes->positions[triangle.corners[k]]);
+    for (std::size_t c = 0; c < 3; ++c)
+        points[c] = homogeneousOnPicture(geometry.frame, geometry.meshes->meshes->positions[triangle.corners[c]]);
     const std::array<dvec3, 3> planes{cross(points[1], points[2]), cross(points[2], points[0]),
                                       cross(points[0], points[1])};
     const double volume = dot(points[0], planes[0]);
@@ -46,46 +54,89 @@ void setUpCut(const SolidGeometry& geometry, const DrawnTriangle& triangle, glm:
     }
     // Scaling by a power of two rounds nothing, so that the functions of a shared edge stay the same.
     const double scale = std::copysign(inversePowerOfTwo(most), volume);
-    for (std::size_t k = 0; k < 3; ++k) setup.edges[k] = glm::vec3(scale * atCorner(planes[k]));
-    setup.depth = glm::vec3(atCorner(planes[0] + planes[1] + planes[2]) / volume);
+    for (std::size_t e = 0; e < 3; ++e) setFunction(group.edges[e], k, scale * atCorner(planes[e]));
+    setFunction(group.depth, k, atCorner(planes[0] + planes[1] + planes[2]) / volume);
 }
 
-/// Sets the functions of a triangle before the eye from its corners on the picture.
-/// @param corners  as in MeshTiles, but from the tile's corner
-void setUpWhole(const std::array<glm::vec3, 3>& corners, TriangleSetup& setup) {
-    const auto& [a, b, c] = corners;
-    const glm::vec3 toB = b - a;
-    const glm::vec3 toC = c - a;
-    const float area = toB.x * toC.y - toB.y * toC.x;
-    const float side = area < 0.0F ? -1.0F : 1.0F;
-    const auto edge = [&](const glm::vec3& from, const glm::vec3& to) {
-        return side * glm::vec3(from.y - to.y, to.x - from.x, from.x * to.y - to.x * from.y);
+/// The corners of a group's triangles on the picture, as in MeshTiles but from the tile's corner. One array for each
+/// coordinate lets compilers vectorize the loops over the triangles.
+struct GroupCorners {
+    struct Points {
+        TriangleGroup::Values x{}, y{}, z{};
+
+        void set(std::size_t k, const glm::vec3& point) {
+            x[k] = point.x;
+            y[k] = point.y;
+            z[k] = point.z;
+        }
     };
-    setup.edges = {edge(b, c), edge(c, a), edge(a, b)};
-    // In double precision, because far from its nearest corner 1 / view depth is a small difference.
-    const glm::dvec3 first(toB);
-    const glm::dvec3 second(toC);
-    const double inverse = 1.0 / (first.x * second.y - first.y * second.x);
-    const double across = (first.z * second.y - second.z * first.y) * inverse;
-    const double down = (second.z * first.x - first.z * second.x) * inverse;
-    setup.depth = glm::vec3(across, down, double(a.z) - across * double(a.x) - down * double(a.y));
+    Points a, b, c;
+};
+
+void setEdges(const GroupCorners& corners, TriangleGroup& group) {
+    using Points = GroupCorners::Points;
+    const auto& [a, b, c] = corners;
+    TriangleGroup::Values side;
+    for (std::size_t k = 0; k < TriangleGroup::kMost; ++k) {
+        const float area = (b.x[k] - a.x[k]) * (c.y[k] - a.y[k]) - (b.y[k] - a.y[k]) * (c.x[k] - a.x[k]);
+        side[k] = area < 0.0F ? -1.0F : 1.0F;
+    }
+    const auto setEdge = [&](const Points& from, const Points& to, TriangleGroup::Functions& edge) {
+        for (std::size_t k = 0; k < TriangleGroup::kMost; ++k) {
+            edge.x[k] = side[k] * (from.y[k] - to.y[k]);
+            edge.y[k] = side[k] * (to.x[k] - from.x[k]);
+            edge.z[k] = side[k] * (from.x[k] * to.y[k] - to.x[k] * from.y[k]);
+        }
+    };
+    setEdge(b, c, group.edges[0]);
+    setEdge(c, a, group.edges[1]);
+    setEdge(a, b, group.edges[2]);
+}
+
+/// In double precision, because far from its nearest corner 1 / view depth is a small difference.
+void setDepths(const GroupCorners& corners, TriangleGroup& group) {
+    const auto& [a, b, c] = corners;
+    for (std::size_t k = 0; k < TriangleGroup::kMost; ++k) {
+        const double firstX = b.x[k] - a.x[k];
+        const double firstY = b.y[k] - a.y[k];
+        const double firstZ = b.z[k] - a.z[k];
+        const double secondX = c.x[k] - a.x[k];
+        const double secondY = c.y[k] - a.y[k];
+        const double secondZ = c.z[k] - a.z[k];
+        const double inverse = 1.0 / (firstX * secondY - firstY * secondX);
+        const double across = (firstZ * secondY - secondZ * firstY) * inverse;
+        const double down = (secondZ * firstX - firstZ * secondX) * inverse;
+        group.depth.x[k] = static_cast<float>(across);
+        group.depth.y[k] = static_cast<float>(down);
+        group.depth.z[k] = static_cast<float>(double(a.z[k]) - across * double(a.x[k]) - down * double(a.y[k]));
+    }
 }
 
 }  // namespace
 
-TriangleSetup triangleSetup(const SolidGeometry& geometry, std::uint32_t index, glm::vec2 corner) {
+TriangleGroup triangleGroup(const SolidGeometry& geometry, std::span<const std::uint32_t> indices, glm::vec2 corner) {
     const MeshTiles& meshes = *geometry.meshes;
-    const DrawnTriangle& triangle = meshes.meshes->triangles[index];
-    TriangleSetup setup;
-    setup.front = meshes.bounds[index].front;
-    setup.back = meshes.bounds[index].back;
-    if (isCut(geometry.frame, setup.front, setup.back)) {
-        setUpCut(geometry, triangle, glm::dvec2(corner), setup);
-        return setup;
+    const glm::vec3 tile(corner, 0.0F);
+    TriangleGroup group;
+    GroupCorners corners;
+    bool isAnyCut = false;
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+        const TriangleBounds& bounds = meshes.bounds[indices[k]];
+        const auto& [a, b, c] = meshes.meshes->triangles[indices[k]].corners;
+        group.front[k] = bounds.front;
+        group.back[k] = bounds.back;
+        corners.a.set(k, meshes.corners[a] - tile);
+        corners.b.set(k, meshes.corners[b] - tile);
+        corners.c.set(k, meshes.corners[c] - tile);
+        isAnyCut = isAnyCut || isCut(geometry.frame, bounds.front, bounds.back);
     }
-    const auto fromTile = [&](std::size_t k) { return meshes.corners[triangle.corners[k]] - glm::vec3(corner, 0.0F); };
-    setUpWhole({fromTile(0), fromTile(1), fromTile(2)}, setup);
-    return setup;
+    setEdges(corners, group);
+    setDepths(corners, group);
+    if (!isAnyCut) return group;
+    for (std::size_t k = 0; k < indices.size(); ++k)
+        if (isCut(geometry.frame, group.front[k], group.back[k]))
+            setUpCut(geometry, meshes.meshes->triangles[indices[k]], glm::dvec2(corner), k, group);
+    return group;
 }
 
 }  // namespace render
