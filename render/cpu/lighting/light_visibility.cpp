@@ -16,7 +16,7 @@
 
 #include "render/cpu/lighting/box_shadows-inl.h"
 #include "render/cpu/lighting/receivers-inl.h"
-#include "render/cpu/lighting/simd_loads-inl.h"
+#include "render/cpu/raster/simd_loads-inl.h"
 #include "render/prepare/simd_occlusion-inl.h"
 #include "render/prepare/simd_rays-inl.h"
 

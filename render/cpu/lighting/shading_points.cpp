@@ -6,7 +6,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "render/cpu/lighting/simd_loads-inl.h"
+#include "render/cpu/raster/simd_loads-inl.h"
 #include "render/prepare/simd_occlusion-inl.h"
 #include "render/prepare/simd_rays-inl.h"
 
@@ -60,19 +60,6 @@ Vec3 unpackColor(VI word) {
 
 Vec3 unpackSky(VI word) {
     return {unpackUnit<0, 10>(word), unpackUnit<10, 10>(word), unpackUnit<20, 10>(word)};
-}
-
-/// A record of four 32-bit integers for each lane.
-struct Words {
-    VI x, y, z, w;
-};
-
-template <typename Record>
-Words loadRecords(std::span<const Record> records, VI index) {
-    static_assert(sizeof(Record) == 4 * sizeof(float));
-    const Float4 four = gather4(reinterpret_cast<const float*>(records.data()), hn::ShiftLeft<2>(index));
-    const DI di;
-    return {hn::BitCast(di, four.x), hn::BitCast(di, four.y), hn::BitCast(di, four.z), hn::BitCast(di, four.w)};
 }
 
 void addSpheres(const ShadingGeometry& geometry, const HitRays& hits, M where, PointVector& points) {

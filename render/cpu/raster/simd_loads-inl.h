@@ -12,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include <hwy/highway.h>
 
@@ -84,6 +85,20 @@ HWY_INLINE std::array<VI, 6> gather6(const std::uint16_t* numbers, VI indices) {
     const auto second = [&](V pair) { return hn::BitCast(di, hn::ShiftRight<16>(hn::BitCast(du, pair))); };
     return {first(pairs.x), second(pairs.x), first(pairs.y), second(pairs.y), first(pairs.z), second(pairs.z)};
 #endif
+}
+
+/// A record of four 32-bit integers for each lane.
+struct Words {
+    VI x, y, z, w;
+};
+
+/// For each lane the record at the lane's index.
+template <typename Record>
+HWY_INLINE Words loadRecords(std::span<const Record> records, VI index) {
+    static_assert(sizeof(Record) == 4 * sizeof(float));
+    const Float4 four = gather4(reinterpret_cast<const float*>(records.data()), hn::ShiftLeft<2>(index));
+    const DI di;
+    return {hn::BitCast(di, four.x), hn::BitCast(di, four.y), hn::BitCast(di, four.z), hn::BitCast(di, four.w)};
 }
 
 }  // namespace HWY_NAMESPACE
