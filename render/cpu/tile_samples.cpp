@@ -6,6 +6,7 @@
 
 #include "render/cpu/metaballs/ray_layout.h"
 #include "render/cpu/raster/mesh_hits.h"
+#include "render/cpu/raster/smooth_hits.h"
 
 namespace render {
 

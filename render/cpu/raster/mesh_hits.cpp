@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 
 #undef HWY_TARGET_INCLUDE
@@ -189,45 +188,8 @@ HWY_AFTER_NAMESPACE();
 
 namespace render {
 
-namespace {
-
 HWY_EXPORT(findTileHits);
 HWY_EXPORT(findHitsAnywhere);
-
-// Two triangles may belong to one smooth surface if the cosine between their normals is at least this. Chosen: a fold
-// by as much, 18 degrees, cannot be told from a bend within one pixel.
-constexpr float kSmooth = 0.95F;
-
-bool isTriangle(std::int32_t hitId) {
-    return hitId >= kHitTriangle && hitId < kHitBox;
-}
-
-bool haveSharedCorner(const DrawnTriangle& a, const DrawnTriangle& b) {
-    return std::ranges::any_of(a.corners, [&](std::uint32_t corner) {
-        return corner == b.corners[0] || corner == b.corners[1] || corner == b.corners[2];
-    });
-}
-
-/// Whether two samples of a pixel hit the same smooth surface: triangles that share a corner, where normals and
-/// positions are the same, or triangles of one mesh with nearly the same normal at nearly the same depth.
-bool isSmooth(const SolidGeometry& geometry, std::int32_t a, std::int32_t b, float depthA, float depthB) {
-    const MeshTiles& meshes = *geometry.meshes;
-    const auto first = static_cast<std::size_t>(a - kHitTriangle);
-    const auto second = static_cast<std::size_t>(b - kHitTriangle);
-    const DrawnTriangle& one = meshes.meshes->triangles[first];
-    const DrawnTriangle& other = meshes.meshes->triangles[second];
-    if (one.mesh != other.mesh) return false;
-    if (haveSharedCorner(one, other)) return true;
-    const glm::vec3 normal = meshes.bounds[first].normal;
-    if (dot(normal, meshes.bounds[second].normal) < kSmooth) return false;
-    const CameraFrame& frame = geometry.frame;
-    const float pixel = frame.pixelWidth() * (frame.perspective ? std::min(depthA, depthB) : 1.0F);
-    // Within a pixel a surface at this angle to the view gets deeper by pixel / cosine; twice that for its bend.
-    const float cosine = std::max(std::abs(dot(normal, frame.forward)), 0.05F);
-    return std::abs(depthA - depthB) <= 2.0F * pixel / cosine;
-}
-
-}  // namespace
 
 void findMeshHits(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> samples) {
     HWY_DYNAMIC_DISPATCH(findTileHits)(geometry, tile, samples);
@@ -235,28 +197,6 @@ void findMeshHits(const SolidGeometry& geometry, std::size_t tile, std::span<Til
 
 void findMeshHitsAnywhere(const SolidGeometry& geometry, std::size_t tile, TileRays& rays) {
     HWY_DYNAMIC_DISPATCH(findHitsAnywhere)(geometry, tile, rays);
-}
-
-void mergeSmoothHits(const SolidGeometry& geometry, std::span<TileRays> samples) {
-    std::array<std::int32_t, kTilePixels> differences{};
-    for (std::size_t s = 1; s < samples.size(); ++s)
-        for (std::size_t k = 0; k < kTilePixels; ++k) differences[k] |= samples[s].hitId[k] ^ samples[0].hitId[k];
-    for (std::size_t k = 0; k < kTilePixels; ++k) {
-        if (differences[k] == 0) continue;
-        for (std::size_t s = 1; s < samples.size(); ++s) {
-            const std::int32_t id = samples[s].hitId[k];
-            if (id == samples[0].hitId[k] || !isTriangle(id)) continue;
-            for (std::size_t earlier = 0; earlier < s; ++earlier) {
-                const std::int32_t other = samples[earlier].hitId[k];
-                if (other == id) break;
-                if (!isTriangle(other) ||
-                    !isSmooth(geometry, other, id, samples[earlier].depth[k], samples[s].depth[k]))
-                    continue;
-                samples[s].hitId[k] = other;
-                break;
-            }
-        }
-    }
 }
 
 }  // namespace render

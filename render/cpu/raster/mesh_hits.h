@@ -21,8 +21,4 @@ void findMeshHits(const SolidGeometry& geometry, std::size_t tile, std::span<Til
 /// as the triangles were listed with.
 void findMeshHitsAnywhere(const SolidGeometry& geometry, std::size_t tile, TileRays& rays);
 
-/// Gives samples of a pixel that hit triangles of one smooth surface the same hit id, of one of these triangles, so
-/// that the pixel is no edge pixel.
-void mergeSmoothHits(const SolidGeometry& geometry, std::span<TileRays> samples);
-
 }  // namespace render
