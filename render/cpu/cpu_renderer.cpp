@@ -4,6 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include <tbb/parallel_invoke.h>
+
 #include "render/cpu/lighting/mesh_depth_map.h"
 #include "render/cpu/metaballs/metaball_frame.h"
 #include "render/cpu/surface_layers.h"
@@ -57,15 +59,16 @@ void CpuRenderer::draw(const PreparedView& view, const LayerSelection& wanted, L
     timed(times.readBack, [&] { layers.image = packedImage(size_, pixels_, padded_.width, std::move(layers.image)); });
 }
 
-// The same for all samplings: the filter of the depth map is smooth, and its map is as fine as the picture.
+// The same for all samplings: the filter of the depth map is smooth, and its map is as fine as the picture. Tiles and
+// map are made side by side, because each has parts that keep only one thread busy.
 void CpuRenderer::placeMeshes(const PreparedView& view, DrawTimes& times) {
-    timed(times.bin,
-          [&] { meshTiles_ = meshTiles(view.frame, view.meshes, view.lineMargin(), std::move(meshTiles_)); });
-    timed(times.shadow, [&] {
+    const auto bin = [&] { meshTiles_ = meshTiles(view.frame, view.meshes, view.lineMargin(), std::move(meshTiles_)); };
+    const auto drawMap = [&] {
         const DepthMapGrid& grid = view.meshDepthMap;
         meshDepthMap_ =
             grid.empty() ? DepthMap{} : meshDepthMap(view.light, grid, view.meshes, std::move(meshDepthMap_));
-    });
+    };
+    tbb::parallel_invoke([&] { timed(times.bin, bin); }, [&] { timed(times.shadow, drawMap); });
 }
 
 void CpuRenderer::drawLayers(const PreparedView& view, const Sampling& sampling, const LayerSelection& wanted,

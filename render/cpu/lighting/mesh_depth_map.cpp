@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include "render/cpu/lighting/mesh_heights.h"
+#include "render/cpu/raster/parallel_lists.h"
 #include "render/prepare/tiles.h"
 
 namespace render {
@@ -30,14 +30,11 @@ class MeshHeights {
           columns_(2 * map.columns),
           rows_(2 * map.rows),
           corners_(meshes.positions.size()) {
-        const tbb::blocked_range<std::size_t> all(0, corners_.size(), 4096);
-        tbb::parallel_for(all, [&](const auto& range) {
-            for (std::size_t k = range.begin(); k < range.end(); ++k) {
-                const glm::vec3 at = basis.toLightSpace(meshes.positions[k]);
-                // The first height of a texel lies a quarter of the texel's side from its corner.
-                const glm::vec2 place = (glm::vec2(at) - map.origin) * (2.0F / map.texelSize) - 0.5F;
-                corners_[k] = {place, map.stepsOf(at.z)};
-            }
+        forAll(corners_.size(), [&](std::size_t k) {
+            const glm::vec3 at = basis.toLightSpace(meshes.positions[k]);
+            // The first height of a texel lies a quarter of the texel's side from its corner.
+            const glm::vec2 place = (glm::vec2(at) - map.origin) * (2.0F / map.texelSize) - 0.5F;
+            corners_[k] = {place, map.stepsOf(at.z)};
         });
     }
 
@@ -53,17 +50,15 @@ class MeshHeights {
 
  private:
     CellLists listByBand() const {
-        std::vector<CellItem> items;
-        for (std::size_t k = 0; k < meshes_.triangles.size(); ++k) {
+        const auto items = listAll<CellItem>(meshes_.triangles.size(), [&](std::size_t k, std::vector<CellItem>& list) {
             const auto& [a, b, c] = meshes_.triangles[k].corners;
             const std::array<glm::vec3, 3> at{corners_[a], corners_[b], corners_[c]};
-            if (!isTurnedAway(at)) continue;
+            if (!isTurnedAway(at)) return;
             const auto [top, bottom] = std::minmax({at[0].y, at[1].y, at[2].y});
             const int low = std::clamp(static_cast<int>(std::ceil(top)), 0, rows_ - 1);
             const int high = std::clamp(static_cast<int>(bottom), 0, rows_ - 1);
-            if (high < low) continue;
-            items.push_back({static_cast<std::uint32_t>(k), {0, low / kBandRows, 0, high / kBandRows}});
-        }
+            if (low <= high) list.push_back({static_cast<std::uint32_t>(k), {0, low / kBandRows, 0, high / kBandRows}});
+        });
         return binIntoCells(items, 1, (rows_ + kBandRows - 1) / kBandRows);
     }
 

@@ -8,8 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include "render/cpu/raster/parallel_lists.h"
 
 namespace render {
 
@@ -17,18 +16,8 @@ namespace {
 
 using glm::dvec3;
 
-constexpr std::size_t kItemsOfTask = 2048;  // corners or triangles that one task handles; chosen
-
 // How far beside a pixel a triangle may lie and still count as covering it, pixels: far more than the rounding.
 constexpr float kSlack = 0.01F;
-
-/// Calls visit(k) for all k below count, in parallel.
-template <typename Visit>
-void forAll(std::size_t count, const Visit& visit) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kItemsOfTask), [&](const auto& range) {
-        for (std::size_t k = range.begin(); k < range.end(); ++k) visit(k);
-    });
-}
 
 /// @param point  in world axes, relative to the eye
 dvec3 toView(const CameraFrame& frame, glm::vec3 point) {
@@ -147,23 +136,30 @@ TriangleBounds boundsOf(const CameraFrame& frame, const MeshTiles& to, const Dra
     return bounds;
 }
 
+/// A triangle that the picture may show.
+struct SeenTriangle {
+    std::uint32_t index;
+    float front;  // least view depth of a corner, m
+};
+
 CellLists listTriangles(const CameraFrame& frame, const std::vector<TriangleBounds>& bounds, int margin) {
-    std::vector<std::uint32_t> seen;
+    const auto seen = listAll<SeenTriangle>(bounds.size(), [&](std::size_t k, std::vector<SeenTriangle>& list) {
+        if (bounds[k].pixels.x0 <= bounds[k].pixels.x1)
+            list.push_back({static_cast<std::uint32_t>(k), bounds[k].front});
+    });
     std::vector<float> fronts;
-    for (std::size_t k = 0; k < bounds.size(); ++k) {
-        if (bounds[k].pixels.x1 < bounds[k].pixels.x0) continue;
-        seen.push_back(static_cast<std::uint32_t>(k));
-        fronts.push_back(bounds[k].front);
-    }
+    fronts.reserve(seen.size());
+    for (const SeenTriangle& triangle : seen) fronts.push_back(triangle.front);
+    const std::vector<std::uint32_t> order = indicesByKey(fronts);
     const auto tileOf = [](int pixel, int count) { return std::clamp(pixel, 0, count - 1) / kTileSize; };
-    std::vector<CellItem> items;
-    items.reserve(seen.size());
-    for (const std::uint32_t rank : indicesByKey(fronts)) {
-        const Rect& at = bounds[seen[rank]].pixels;
-        items.push_back({seen[rank],
-                         {tileOf(at.x0 - margin, frame.width), tileOf(at.y0 - margin, frame.height),
-                          tileOf(at.x1 + margin, frame.width), tileOf(at.y1 + margin, frame.height)}});
-    }
+    std::vector<CellItem> items(seen.size());
+    forAll(items.size(), [&](std::size_t k) {
+        const std::uint32_t index = seen[order[k]].index;
+        const Rect& at = bounds[index].pixels;
+        items[k] = {index,
+                    {tileOf(at.x0 - margin, frame.width), tileOf(at.y0 - margin, frame.height),
+                     tileOf(at.x1 + margin, frame.width), tileOf(at.y1 + margin, frame.height)}};
+    });
     return binIntoCells(items, tilesAlong(frame.width), tilesAlong(frame.height));
 }
 
