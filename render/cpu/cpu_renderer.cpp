@@ -60,8 +60,12 @@ void CpuRenderer::draw(const PreparedView& view, const LayerSelection& wanted, L
 }
 
 // The same for all samplings: the filter of the depth map is smooth, and its map is as fine as the picture. Tiles and
-// map are made side by side, because each has parts that keep only one thread busy.
+// map are made side by side, because each has parts that keep only one thread busy. Those of the last picture are kept
+// while the camera, the light and all meshes are at rest.
 void CpuRenderer::placeMeshes(const PreparedView& view, DrawTimes& times) {
+    PlacedMeshes placed{view.meshes.obstacles, view.frame, view.lineMargin(), view.light, view.meshDepthMap};
+    if (placed == placedMeshes_) return;
+    placedMeshes_.reset();
     const auto bin = [&] { meshTiles_ = meshTiles(view.frame, view.meshes, view.lineMargin(), std::move(meshTiles_)); };
     const auto drawMap = [&] {
         const DepthMapGrid& grid = view.meshDepthMap;
@@ -69,6 +73,7 @@ void CpuRenderer::placeMeshes(const PreparedView& view, DrawTimes& times) {
             grid.empty() ? DepthMap{} : meshDepthMap(view.light, grid, view.meshes, std::move(meshDepthMap_));
     };
     tbb::parallel_invoke([&] { timed(times.bin, bin); }, [&] { timed(times.shadow, drawMap); });
+    placedMeshes_ = std::move(placed);
 }
 
 void CpuRenderer::drawLayers(const PreparedView& view, const Sampling& sampling, const LayerSelection& wanted,

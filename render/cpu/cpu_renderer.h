@@ -3,6 +3,7 @@
 // with the rays moved within the pixel.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,17 @@ struct Sampling {
     bool isSparse = false;   ///< whether smooth metaballs are cast at every second pixel only and interpolated between
     std::size_t index = 0;   ///< number of earlier samplings of the same picture
     std::size_t count = 1;   ///< number of samplings
+};
+
+/// What the tiles and the depth map of meshes depend on.
+struct PlacedMeshes {
+    std::vector<MeshObstacle> obstacles;
+    CameraFrame frame;
+    int lineMargin = 0;
+    LightBasis light;
+    DepthMapGrid depthMap;
+
+    bool operator==(const PlacedMeshes&) const = default;
 };
 
 class CpuRenderer final : public ViewRenderer {
@@ -47,6 +59,7 @@ class CpuRenderer final : public ViewRenderer {
     DepthMap depthMap_;
     DepthMap meshDepthMap_;
     MeshTiles meshTiles_;
+    std::optional<PlacedMeshes> placedMeshes_;  // what the depth map and the tiles of meshes show
     BackgroundCache background_;
     std::vector<PointColors> sums_;   // per tile: sums of the colors of all samplings so far
     std::vector<PixelColor> pixels_;  // pixels of whole tiles, row by row

@@ -47,6 +47,7 @@ void place(const MeshObstacle& obstacle, glm::vec3 eye, std::size_t firstCorner,
 }  // namespace
 
 DrawnMeshes drawnMeshes(const View& view, glm::vec3 eye, DrawnMeshes old) {
+    if (old.obstacles == view.meshObstacles && old.eye == eye) return old;
     DrawnMeshes meshes = std::move(old);
     std::size_t corners = 0;
     std::size_t triangles = 0;
@@ -68,6 +69,8 @@ DrawnMeshes drawnMeshes(const View& view, glm::vec3 eye, DrawnMeshes old) {
         corners += obstacle.mesh->positions.size();
         triangles += obstacle.mesh->triangles.size();
     }
+    meshes.obstacles = view.meshObstacles;
+    meshes.eye = eye;
     return meshes;
 }
 

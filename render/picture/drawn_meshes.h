@@ -27,6 +27,8 @@ struct DrawnMeshes {
     std::vector<DrawnTriangle> triangles;
     std::vector<glm::vec3> colors;          ///< one for each mesh
     std::vector<Bounds<glm::vec3>> bounds;  ///< around the corners of each mesh, m
+    std::vector<MeshObstacle> obstacles;    ///< of the view
+    glm::vec3 eye{0.0F};                    ///< world coordinates, m
 
     bool empty() const { return triangles.empty(); }
 };
@@ -36,7 +38,8 @@ inline constexpr std::size_t kMostTriangles = std::size_t{1} << 27;
 
 /// Places the meshes of a view.
 /// @param eye  world coordinates, m
-/// @param old  meshes that are no longer needed, whose memory is reused
+/// @param old  the meshes of an earlier picture, which are kept if neither they nor the eye have moved; otherwise their
+///             memory is reused
 /// @throws SystemError  beyond kMostTriangles
 DrawnMeshes drawnMeshes(const View& view, glm::vec3 eye, DrawnMeshes old = {});
 

@@ -23,6 +23,9 @@ struct MeshObstacle {
     glm::mat3 rotation{1.0F};  ///< from the mesh's coordinates to the picture's
     glm::vec3 position{0.0F};  ///< of the origin of the mesh's coordinates, m
     glm::vec3 color{0.5F};     ///< linear RGB
+
+    /// Whether both have the same mesh, not merely an equal one, at the same place.
+    bool operator==(const MeshObstacle&) const = default;
 };
 
 }  // namespace render

@@ -33,6 +33,8 @@ struct DepthMapGrid {
         grid.origin += texels * texelSize;
         return grid;
     }
+
+    bool operator==(const DepthMapGrid&) const = default;
 };
 
 /// The grid that covers the kernels of a view's metaballs. It is empty if no particle has a radius above zero.

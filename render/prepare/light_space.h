@@ -23,6 +23,8 @@ struct LightBasis {
     glm::vec3 toLight{0.0F, 1.0F, 0.0F};
 
     glm::vec3 toLightSpace(glm::vec3 point) const { return {dot(point, u), dot(point, v), dot(point, toLight)}; }
+
+    bool operator==(const LightBasis&) const = default;
 };
 
 /// The basis of light space.

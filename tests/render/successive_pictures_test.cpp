@@ -13,6 +13,7 @@
 #include "render/cpu/picture_colors.h"
 #include "render/cpu/shading/shade.h"
 #include "tests/render/pictures.h"
+#include "tests/render/solid_meshes.h"
 
 using pictures::drawn;
 using render::Quality;
@@ -33,6 +34,21 @@ std::vector<Change> changes() {
              [](render::View& v) {
                  for (render::Sphere& particle : v.particles) particle.center += glm::vec3(0.7F, 0.2F, -0.4F);
              }},
+            {"a mesh",
+             [](render::View& v) {
+                 v.meshObstacles.push_back({pictures::meshTorus(0.8, 0.3, 40), glm::mat3(1.0F), {0.2F, 1.0F, 1.0F}});
+             }},
+            {"the mesh has moved", [](render::View& v) { v.meshObstacles[0].position.x += 0.3F; }},
+            {"the mesh is turned",
+             [](render::View& v) {
+                 v.meshObstacles[0].rotation = pictures::rotationAround({1.0F, 0.5F, 0.0F}, 0.8F);
+             }},
+            {"the mesh has another color",
+             [](render::View& v) {
+                 v.meshObstacles[0].color = {0.7F, 0.1F, 0.1F};
+             }},
+            {"another mesh is in its place",
+             [](render::View& v) { v.meshObstacles[0].mesh = pictures::meshSphere(0.7, 40); }},
             {"particles are gone", [](render::View& v) { v.particles.resize(3); }},
             {"the background's top",
              [](render::View& v) {
@@ -88,6 +104,7 @@ std::vector<Change> changes() {
                  for (render::Sphere& particle : v.particles) particle.center.x -= 0.9F;
              }},
             {"no shadows", [](render::View& v) { v.light.shadows = false; }},
+            {"the mesh has moved without shadows", [](render::View& v) { v.meshObstacles[0].position.y += 0.3F; }},
             {"no ground", [](render::View& v) { v.ground.reset(); }}};
 }
 
