@@ -188,7 +188,7 @@ std::string benchRowsText() {
     std::vector<std::string> names;
     for (const Packing& packing : packings()) names.emplace_back(packing.name);
     std::vector<std::string> pictures;
-    for (const std::size_t triangles : meshSizes()) pictures.push_back(meshPictureName(triangles));
+    for (const MeshPicture& picture : meshPictures()) pictures.push_back(nameOf(picture));
     return fmt::format("multiply-add, copy; {} of torus; {} of {}, steps up to {} particles", fmt::join(pictures, ", "),
                        fmt::join(rowNames(0), ", "), fmt::join(names, ", "), kMostStepped);
 }
@@ -201,8 +201,8 @@ std::vector<BenchRow> runBench(const BenchSettings& settings, const std::functio
     };
     if (settings.wants("multiply-add", "")) add(multiplyAddRow(settings));
     if (settings.wants("copy", "")) add(copyRow(settings));
-    for (const std::size_t triangles : meshSizes())
-        if (settings.wants(meshPictureName(triangles), kMeshPicture)) add(meshPictureRow(triangles, settings));
+    for (const MeshPicture& picture : meshPictures())
+        if (settings.wants(nameOf(picture), kMeshPicture)) add(meshPictureRow(picture, settings));
     for (const std::size_t count : settings.counts)
         for (const Packing& packing : packings()) measureLattice(packing, count, settings, add);
     return rows;
