@@ -63,10 +63,13 @@ struct BlockTriangle {
     }
 };
 
-/// Adds triangles to the samples of a tile.
+/// Adds triangles to the samples of a tile, each in two passes: over the samples around it, and over those that it
+/// hits.
 template <bool kPerspective, int kSide>
 class BlockRaster {
  public:
+    static constexpr std::size_t kAll = BlockSamples<kSide>::kSamples * kTilePixels;
+
     BlockRaster(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> rays)
         : geometry_(geometry),
           tile_(tile),
@@ -103,14 +106,17 @@ class BlockRaster {
 
     void add(const BlockTriangle<kSide>& triangle, const Rect& touched) {
         const Rect blocks{touched.x0 / kSide, touched.y0 / kSide, touched.x1 / kSide, touched.y1 / kSide};
+        hitCount_ = 0;
         for (int row = blocks.y0; row <= blocks.y1; ++row)
             for (std::size_t pixels = 0; pixels < kSide * kSide; pixels += hn::Lanes(D()))
-                addToRow(triangle, blocks, row, pixels);
+                findInRow(triangle, blocks, row, pixels);
+        for (std::size_t k = 0; k < hitCount_; ++k) addHits(triangle, k);
     }
 
-    /// Adds a triangle to a row of blocks.
-    /// @param pixels   the first of each block's pixels that a vector takes
-    HWY_INLINE void addToRow(const BlockTriangle<kSide>& triangle, const Rect& blocks, int row, std::size_t pixels) {
+    /// Finds the vectors of samples in a row of blocks that hit a triangle. There is no branch on whether they do,
+    /// which would be mispredicted too often.
+    /// @param pixels  the first of each block's pixels that a vector takes
+    HWY_INLINE void findInRow(const BlockTriangle<kSide>& triangle, const Rect& blocks, int row, std::size_t pixels) {
         const V y = load(&places_.row[pixels]) + splat(static_cast<float>(row * kSide));
         const auto slopeOf = [&](std::size_t f) { return splat(triangle.slopes[f].x); };
         const auto ofRow = [&](std::size_t f) { return splat(triangle.slopes[f].y) * y; };
@@ -119,19 +125,27 @@ class BlockRaster {
         for (int across = blocks.x0; across <= blocks.x1; ++across) {
             const V x = load(&places_.column[pixels]) + splat(static_cast<float>(across * kSide));
             const auto atPixels = [&](std::size_t f) { return slope[f] * x + start[f]; };
-            const std::array<V, 3> edges{atPixels(0), atPixels(1), atPixels(2)};
+            const std::array<V, 4> values{atPixels(0), atPixels(1), atPixels(2), atPixels(3)};
             const std::size_t block = samples_.blockAt(across, row);
             for (std::size_t k = pixels; k < kBlock; k += std::max<std::size_t>(hn::Lanes(D()), kSide * kSide)) {
-                float* depths = &samples_.depth[block + k];
-                if (hn::AllTrue(D(), load(depths) < splat(triangle.front))) continue;
-                const auto at = [&](V ofPixels, std::size_t f) { return ofPixels + load(&triangle.ofSample[f][k]); };
-                M isHit = hn::Min(at(edges[0], 0), hn::Min(at(edges[1], 1), at(edges[2], 2))) >= splat(0.0F);
-                if (none(isHit)) continue;
-                const V depth =
-                    depthOf<kPerspective>(at(atPixels(3), 3), splat(triangle.front), splat(triangle.back), isHit);
-                keepNearer(isHit, depth, triangle.id, depths, &samples_.hitId[block + k]);
+                const auto at = [&](std::size_t f) { return values[f] + load(&triangle.ofSample[f][k]); };
+                const V inside = hn::Min(at(0), hn::Min(at(1), at(2)));
+                const M isHit =
+                    hn::And(inside >= splat(0.0F), load(&samples_.depth[block + k]) > splat(triangle.front));
+                store(inside, &inside_[hitCount_ * hn::Lanes(D())]);
+                store(at(3), &linear_[hitCount_ * hn::Lanes(D())]);
+                firstHits_[hitCount_] = static_cast<std::uint16_t>(block + k);
+                hitCount_ += none(isHit) ? 0U : 1U;
             }
         }
+    }
+
+    HWY_INLINE void addHits(const BlockTriangle<kSide>& triangle, std::size_t k) {
+        M isHit = load(&inside_[k * hn::Lanes(D())]) >= splat(0.0F);
+        const V linear = load(&linear_[k * hn::Lanes(D())]);
+        const V depth = depthOf<kPerspective>(linear, splat(triangle.front), splat(triangle.back), isHit);
+        const std::size_t first = firstHits_[k];
+        keepNearer(isHit, depth, triangle.id, &samples_.depth[first], &samples_.hitId[first]);
     }
 
     const SolidGeometry& geometry_;
@@ -140,6 +154,10 @@ class BlockRaster {
     std::span<TileRays> rays_;
     BlockPlaces<kSide> places_;
     BlockSamples<kSide> samples_;
+    // Vectors of samples that hit a triangle.
+    std::size_t hitCount_ = 0;
+    std::array<std::uint16_t, kAll + 1> firstHits_;                 // index of the first sample of each
+    alignas(64) std::array<float, kAll + kBlock> inside_, linear_;  // least edge function and function of depth
 };
 
 /// Adds one triangle of a group to all rays of a tile.
