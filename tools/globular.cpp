@@ -3,10 +3,15 @@
 
 #include "render/mesh/isosurface.h"
 #include "render/output/exr.h"
+#include "scenes/shapes/mesh_file.h"
 #include "tools/commands/commands.h"
 #include "tools/system/text.h"
 
 namespace {
+
+std::string withLibrary(const char* name, const std::string& version) {
+    return version.empty() ? fmt::format("without {}", name) : fmt::format("with {} {}", name, version);
+}
 
 /// What --version prints: the version, and which optional libraries are built in.
 std::string versionText() {
@@ -15,11 +20,9 @@ std::string versionText() {
 #else
     constexpr const char* kOpenGl = "without OpenGL";
 #endif
-    const std::string openVdb = render::openVdbVersion();
-    const std::string openExr = render::openExrVersion();
-    return fmt::format("globular " GLOBULAR_VERSION "\n{}, {}, {}", kOpenGl,
-                       openVdb.empty() ? "without OpenVDB" : "with OpenVDB " + openVdb,
-                       openExr.empty() ? "without OpenEXR" : "with OpenEXR " + openExr);
+    return fmt::format(
+        "globular " GLOBULAR_VERSION "\n{}, {}, {}, {}", kOpenGl, withLibrary("OpenVDB", render::openVdbVersion()),
+        withLibrary("OpenEXR", render::openExrVersion()), withLibrary("assimp", scenes::assimpVersion()));
 }
 
 std::string licenses() {

@@ -8,6 +8,8 @@
 namespace scenes {
 
 struct AssimpModule {
+    /// The version of assimp's library, such as 5.2.5.
+    std::string (*version)();
     /// Reads all triangles of a file into the mesh. Returns what went wrong, empty if nothing did.
     std::string (*read)(const std::string& path, Mesh& mesh);
 };

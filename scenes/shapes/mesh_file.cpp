@@ -14,16 +14,25 @@
 namespace scenes {
 namespace {
 
-const AssimpModule& assimpModule(const std::string& path) {
+struct LoadedModule {
+    const AssimpModule* functions = nullptr;
+    std::string failure;  ///< why there are none
+};
+
+LoadedModule load() {
 #ifdef SCENES_ASSIMP_MODULE
-    static void* const library = dlopen(SCENES_ASSIMP_MODULE, RTLD_NOW | RTLD_LOCAL);
-    static const void* const functions = library == nullptr ? nullptr : dlsym(library, "globularAssimp");
-    if (functions == nullptr)
-        throw InputError(path, fmt::format("cannot load assimp, which reads meshes: {}", dlerror()));
-    return *static_cast<const AssimpModule*>(functions);
+    void* const library = dlopen(SCENES_ASSIMP_MODULE, RTLD_NOW | RTLD_LOCAL);
+    const void* const functions = library == nullptr ? nullptr : dlsym(library, "globularAssimp");
+    if (functions == nullptr) return {nullptr, fmt::format("cannot load assimp, which reads meshes: {}", dlerror())};
+    return {static_cast<const AssimpModule*>(functions), ""};
 #else
-    throw InputError(path, "this build has no assimp, which reads meshes; install libassimp-dev, then build again");
+    return {nullptr, "this build has no assimp, which reads meshes; install libassimp-dev, then build again"};
 #endif
+}
+
+const LoadedModule& module() {
+    static const LoadedModule loaded = load();
+    return loaded;
 }
 
 /// A message of assimp in one line.
@@ -35,10 +44,15 @@ std::string inOneLine(std::string text) {
 
 }  // namespace
 
+std::string assimpVersion() {
+    return module().functions == nullptr ? "" : module().functions->version();
+}
+
 Mesh readMesh(const std::string& path) {
     readFile(path, kMaxParticleFileBytes);  // says in the program's own words what is wrong with the path
     Mesh mesh;
-    const std::string problem = assimpModule(path).read(path, mesh);
+    if (module().functions == nullptr) throw InputError(path, module().failure);
+    const std::string problem = module().functions->read(path, mesh);
     if (!problem.empty())
         throw InputError(path, fmt::format("not a mesh in a format that is read, such as OBJ, STL, PLY or glTF: {}",
                                            inOneLine(problem)));

@@ -7,6 +7,9 @@
 
 namespace scenes {
 
+/// The version of assimp; empty if it is not there.
+std::string assimpVersion();
+
 /// The solid in a file, welded, in the file's coordinates. Throws InputError if the file cannot be read, is no mesh, or
 /// does not enclose a volume, with the place of its first open edge.
 Mesh readMesh(const std::string& path);

@@ -3,6 +3,7 @@
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <assimp/version.h>
 
 #include <assimp/Importer.hpp>
 
@@ -27,6 +28,11 @@ void append(const aiMesh& part, Mesh& mesh) {
     }
 }
 
+std::string version() {
+    return std::to_string(aiGetVersionMajor()) + '.' + std::to_string(aiGetVersionMinor()) + '.' +
+           std::to_string(aiGetVersionPatch());
+}
+
 std::string read(const std::string& path, Mesh& mesh) {
     Assimp::Importer importer;
     importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, kLeftOut);
@@ -42,4 +48,4 @@ std::string read(const std::string& path, Mesh& mesh) {
 }  // namespace
 }  // namespace scenes
 
-const scenes::AssimpModule globularAssimp = {scenes::read};
+const scenes::AssimpModule globularAssimp = {scenes::version, scenes::read};

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "render/mesh/isosurface.h"
+#include "scenes/shapes/mesh_file.h"
 #include "tests/catch.h"
 #include "tests/tools/early_ends.h"
 #include "tests/tools/moving_scene.h"
@@ -145,6 +146,12 @@ TEST_CASE("A build without OpenVDB says so before it simulates", "[mesh]") {
     CHECK(outcome.err.find("this build has no OpenVDB") != std::string::npos);
     CHECK(program::lineCount(outcome.err) == 1);
     CHECK_FALSE(fs::exists(folder / "a"));
+}
+
+TEST_CASE("The version tells whether assimp is built in, and which", "[mesh]") {
+    const std::string assimp = scenes::assimpVersion();
+    const std::string expected = assimp.empty() ? "without assimp" : "with assimp " + assimp;
+    CHECK(run("--version").out.find(expected + "\n") != std::string::npos);
 }
 
 TEST_CASE("Meshes of states are those of a run that simulates, byte for byte", "[mesh]") {
