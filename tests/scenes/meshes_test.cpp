@@ -88,9 +88,35 @@ std::string problemOf(const std::string& path) {
     return "";
 }
 
+/// Whether tests that read meshes must be skipped.
+bool lacksAssimp() {
+    if (!scenes::assimpVersion().empty()) return false;
+    WARN("skipped: this build has no assimp");
+    return true;
+}
+
+/// Whether tests of distances from meshes must be skipped.
+bool lacksOpenVdb() {
+    try {
+        scenes::distancesOf(boxMesh({1.0, 1.0, 1.0}), {0.1, 0.3}, "box.obj");
+        return false;
+    } catch (const scenes::InputError& error) {
+        CHECK(error.problems()[0].message.find("this build has no OpenVDB") == 0);
+        WARN("skipped: this build has no OpenVDB");
+        return true;
+    }
+}
+
 }  // namespace
 
+TEST_CASE("A build without assimp says so of each mesh", "[meshes]") {
+    const Folder folder;
+    const std::string problem = problemOf(folder.write("box.obj", objOf(boxMesh({1.0, 2.0, 3.0}))));
+    CHECK((problem.find("this build has no assimp, which reads meshes") == 0) == scenes::assimpVersion().empty());
+}
+
 TEST_CASE("Meshes are read from OBJ, STL and PLY, and their points welded", "[meshes]") {
+    if (lacksAssimp()) return;
     const Folder folder;
     const Mesh box = boxMesh({1.0, 2.0, 3.0});
     REQUIRE(box.points.size() == 8);
@@ -106,6 +132,7 @@ TEST_CASE("Meshes are read from OBJ, STL and PLY, and their points welded", "[me
 }
 
 TEST_CASE("What is no closed mesh is refused with its reason and place", "[meshes]") {
+    if (lacksAssimp()) return;
     const Folder folder;
     const Mesh box = boxMesh({1.0, 2.0, 3.0});
     CHECK(problemOf(folder.write("open.obj", objOf(box, 1)))
@@ -127,6 +154,7 @@ TEST_CASE("Volume and center of mass of a mesh follow from the divergence theore
 }
 
 TEST_CASE("Distances from meshes are those of the shapes", "[meshes]") {
+    if (lacksOpenVdb()) return;
     const double voxel = 0.02;
     const Mesh ball = turnedMesh({{0.0, 0.0}}, false, 0.5);
     const engine::DistanceGrid grid = scenes::distancesOf(ball, {voxel, 3.0 * voxel}, "ball.obj");
@@ -151,6 +179,7 @@ TEST_CASE("Distances from meshes are those of the shapes", "[meshes]") {
 }
 
 TEST_CASE("Distances from meshes are the same bits for any number of threads", "[meshes]") {
+    if (lacksOpenVdb()) return;
     const Mesh torus = turnedMesh({{0.5, 0.0}}, false, 0.2);
     const auto valuesWith = [&](std::size_t threads) {
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
@@ -160,6 +189,7 @@ TEST_CASE("Distances from meshes are the same bits for any number of threads", "
 }
 
 TEST_CASE("A wall thinner than two voxels is refused with its place", "[meshes]") {
+    if (lacksOpenVdb()) return;
     const Mesh plate = boxMesh({1.0, 0.03, 1.0});
     CHECK_NOTHROW(scenes::distancesOf(plate, {0.014, 3.0 * 0.014}, "plate.obj"));
     try {
@@ -179,6 +209,7 @@ TEST_CASE("A wall thinner than two voxels is refused with its place", "[meshes]"
 }
 
 TEST_CASE("A body of a mesh has its volume and center of mass, scaled, placed and turned", "[meshes]") {
+    if (lacksAssimp() || lacksOpenVdb()) return;
     const Folder folder;
     Mesh cone = turnedMesh(engine::frustumProfile(0.5, 0.0, 1.0), true, 0.0);
     for (Vec3& point : cone.points) point += Vec3(5.0, 0.0, 0.0);
