@@ -128,11 +128,6 @@ TriangleBounds boundsOf(const CameraFrame& frame, const MeshTiles& to, const Dra
     } else {
         bounds.pixels = pixelsBeforeEye(frame, {to.corners[a], to.corners[b], to.corners[c]}, isCulled);
     }
-    if (bounds.pixels.x1 < bounds.pixels.x0) return bounds;
-    const std::vector<glm::vec3>& normals = to.meshes->normals;
-    const glm::vec3 sum = normals[a] + normals[b] + normals[c];
-    const float square = dot(sum, sum);
-    bounds.normal = square > 0.0F ? sum / std::sqrt(square) : glm::vec3(0.0F);
     return bounds;
 }
 

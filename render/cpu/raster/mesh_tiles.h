@@ -18,7 +18,6 @@ struct TriangleBounds {
     Rect pixels;         ///< pixels whose samples it may cover; empty for a triangle that is not seen
     float front = 0.0F;  ///< least view depth of a corner, m
     float back = 0.0F;   ///< greatest view depth of a corner, m
-    glm::vec3 normal{};  ///< sum of the normals at the corners, scaled to unit length
 };
 
 struct MeshTiles {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/cpu/raster/smooth_hits.cpp"
@@ -35,11 +36,11 @@ struct SampleHits {
     SampleHits(const DrawnMeshes& meshes, const TileRays& rays, std::size_t first)
         : hitId(loadInt(&rays.hitId[first])),
           depth(load(&rays.depth[first])),
-          triangle(loadRecords(std::span(meshes.triangles), indexOf(isTriangle(hitId)))) {}
+          triangle(loadRecords(std::span(meshes.triangles), indexOf(hitId))) {}
 
-    /// The index of the triangle that is hit; 0 in the lanes that do not belong to the mask.
-    VI indexOf(M where) const {
-        return hn::IfThenElseZero(hn::RebindMask(DI(), where), hitId - splatInt(kHitTriangle));
+    /// The index of the triangle that is hit; 0 where something else is hit.
+    static VI indexOf(VI hitId) {
+        return hn::IfThenElseZero(hn::RebindMask(DI(), isTriangle(hitId)), hitId - splatInt(kHitTriangle));
     }
 
     void replace(M where, const SampleHits& other) {
@@ -58,21 +59,31 @@ M haveSharedCorner(const Words& a, const Words& b) {
     return floatMask(hn::Or(isOf(a.x), hn::Or(isOf(a.y), isOf(a.z))));
 }
 
-/// The normals of the triangles that are hit in the lanes of a mask.
-Vec3 normalsOf(const MeshTiles& meshes, const SampleHits& hits, M where) {
-    static_assert(sizeof(TriangleBounds) == 9 * sizeof(float));
-    const VI first = hits.indexOf(where) * splatInt(9);
-    const float* normal = &meshes.bounds.front().normal.x;
-    const auto component = [&](int axis) { return hn::GatherIndex(D(), normal + axis, first); };
+/// The vectors of a list at the lanes' indices, for the lanes of a mask.
+Vec3 gather(const std::vector<glm::vec3>& list, VI index, M where) {
+    const VI first = hn::IfThenElseZero(hn::RebindMask(DI(), where), index + index + index);
+    const auto component = [&](int axis) { return hn::GatherIndex(D(), &list.front().x + axis, first); };
     return {component(0), component(1), component(2)};
+}
+
+/// The sums of the normals at the corners of triangles, scaled to unit length.
+/// @param where  lanes with triangles
+Vec3 normalsOf(const DrawnMeshes& meshes, const Words& triangle, M where) {
+    const Vec3 sum = gather(meshes.normals, triangle.x, where) + gather(meshes.normals, triangle.y, where) +
+                     gather(meshes.normals, triangle.z, where);
+    const V square = dot(sum, sum);
+    const V length = hn::Sqrt(square);
+    const Vec3 unit{sum.x / length, sum.y / length, sum.z / length};
+    return select(square > splat(0.0F), unit, splat(glm::vec3(0.0F)));
 }
 
 /// Whether triangles have nearly the same normal and are hit at nearly the same depth.
 /// @param where  pixels that are asked about
 M isNearlyFlat(const SolidGeometry& geometry, const SampleHits& a, const SampleHits& b, M where) {
     const CameraFrame& frame = geometry.frame;
-    const Vec3 normal = normalsOf(*geometry.meshes, a, where);
-    const M isParallel = dot(normal, normalsOf(*geometry.meshes, b, where)) >= splat(kSmooth);
+    const DrawnMeshes& meshes = *geometry.meshes->meshes;
+    const Vec3 normal = normalsOf(meshes, a.triangle, where);
+    const M isParallel = dot(normal, normalsOf(meshes, b.triangle, where)) >= splat(kSmooth);
     const V scale = frame.perspective ? hn::Min(a.depth, b.depth) : splat(1.0F);
     const V pixel = splat(frame.pixelWidth()) * scale;
     // Within a pixel a surface at this angle to the view gets deeper by pixel / cosine; twice that for its bend.
