@@ -196,7 +196,8 @@ void addMeshes(const ShadingGeometry& geometry, const HitRays& hits, M where, Po
     const Vec3 normal = normalize(select(dot(mean, mean) > splat(1.0e-12F), mean, flat));
     const M isInner = dot(flat, hits.ray.direction) > splat(0.0F);
     const V side = hn::IfThenElse(isInner, splat(-1.0F), splat(1.0F));
-    points.set(where, depth, normal * side, gatherVec3(meshes.colors, triangle.w));
+    const Vec3 color = meshes.colors.size() == 1 ? splat(meshes.colors.front()) : gatherVec3(meshes.colors, triangle.w);
+    points.set(where, depth, normal * side, color);
 }
 
 void addGround(const ShadingGeometry& geometry, const HitRays& hits, M where, PointVector& points) {
