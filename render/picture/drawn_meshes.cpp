@@ -4,43 +4,31 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
+#include "render/picture/parallel_loops.h"
 #include "render/picture/system_error.h"
 
 namespace render {
 
 namespace {
 
-constexpr std::size_t kPlacedAtOnce = 4096;  // corners or triangles that one task handles; chosen
-
-/// Calls visit(k) for all k below count, in parallel.
-template <typename Visit>
-void inParallel(std::size_t count, const Visit& visit) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kPlacedAtOnce), [&](const auto& range) {
-        for (std::size_t k = range.begin(); k < range.end(); ++k) visit(k);
-    });
-}
-
 /// Places one mesh, whose corners and triangles begin at these indices.
 void place(const MeshObstacle& obstacle, glm::vec3 eye, std::size_t firstCorner, std::size_t firstTriangle,
            DrawnMeshes& meshes) {
     const SolidMesh& mesh = *obstacle.mesh;
     const glm::vec3 offset = obstacle.position - eye;
-    inParallel(mesh.positions.size(), [&](std::size_t k) {
+    forAll(mesh.positions.size(), [&](std::size_t k) {
         meshes.positions[firstCorner + k] = obstacle.rotation * mesh.positions[k] + offset;
         meshes.normals[firstCorner + k] = obstacle.rotation * mesh.normals[k];
     });
     const auto first = static_cast<std::uint32_t>(firstCorner);
     const auto number = static_cast<std::uint32_t>(meshes.colors.size());
-    inParallel(mesh.triangles.size(), [&](std::size_t k) {
+    forAll(mesh.triangles.size(), [&](std::size_t k) {
         const auto& [a, b, c] = mesh.triangles[k];
         meshes.triangles[firstTriangle + k] = {{first + a, first + b, first + c}, number};
     });
-    Bounds<glm::vec3> bounds;
-    for (std::size_t k = 0; k < mesh.positions.size(); ++k) bounds.add(meshes.positions[firstCorner + k]);
-    meshes.bounds.push_back(bounds);
+    meshes.bounds.push_back(
+        boundsOfAll(mesh.positions.size(), [&](std::size_t k) { return meshes.positions[firstCorner + k]; }));
     meshes.colors.push_back(obstacle.color);
 }
 
@@ -75,10 +63,9 @@ DrawnMeshes drawnMeshes(const View& view, glm::vec3 eye, DrawnMeshes old) {
 }
 
 Bounds<glm::vec3> boundsOf(const MeshObstacle& obstacle) {
-    Bounds<glm::vec3> bounds;
-    for (const glm::vec3 position : obstacle.mesh->positions)
-        bounds.add(obstacle.rotation * position + obstacle.position);
-    return bounds;
+    const std::vector<glm::vec3>& positions = obstacle.mesh->positions;
+    return boundsOfAll(positions.size(),
+                       [&](std::size_t k) { return obstacle.rotation * positions[k] + obstacle.position; });
 }
 
 bool isOutside(const CameraFrame& frame, const Bounds<glm::vec3>& box) {

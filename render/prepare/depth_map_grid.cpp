@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "render/picture/parallel_loops.h"
 #include "render/prepare/drawn_spheres.h"
 
 namespace render {
@@ -56,8 +57,8 @@ DepthMapGrid depthMapGrid(const LightBasis& basis, const View& view, std::span<c
 }
 
 DepthMapGrid meshDepthMapGrid(const LightBasis& basis, const View& view, const DrawnMeshes& meshes, int maxTexels) {
-    Bounds<glm::vec3> bounds;
-    for (const glm::vec3 position : meshes.positions) bounds.add(basis.toLightSpace(position));
+    const Bounds<glm::vec3> bounds =
+        boundsOfAll(meshes.positions.size(), [&](std::size_t k) { return basis.toLightSpace(meshes.positions[k]); });
     return gridAround(basis, view, bounds, softTexelSize(view), maxTexels);
 }
 

@@ -13,7 +13,7 @@
 #include <tbb/parallel_for.h>
 
 #include "render/cpu/lighting/mesh_heights.h"
-#include "render/cpu/raster/parallel_lists.h"
+#include "render/picture/parallel_loops.h"
 #include "render/prepare/tiles.h"
 
 namespace render {

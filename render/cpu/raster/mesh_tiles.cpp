@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "render/cpu/raster/parallel_lists.h"
+#include "render/picture/parallel_loops.h"
 
 namespace render {
 
