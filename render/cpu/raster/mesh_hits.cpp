@@ -68,8 +68,6 @@ struct BlockTriangle {
 template <bool kPerspective, int kSide>
 class BlockRaster {
  public:
-    static constexpr std::size_t kAll = BlockSamples<kSide>::kSamples * kTilePixels;
-
     BlockRaster(const SolidGeometry& geometry, std::size_t tile, std::span<TileRays> rays)
         : geometry_(geometry),
           tile_(tile),
@@ -89,6 +87,8 @@ class BlockRaster {
     }
 
  private:
+    static constexpr std::size_t kAll = BlockSamples<kSide>::kSamples * kTilePixels;  ///< samples of the tile
+
     /// @return whether later triangles may be before what has been hit
     bool addGroup(std::span<const std::uint32_t> indices) {
         const float farthest = samples_.farthest();
