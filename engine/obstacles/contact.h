@@ -105,7 +105,8 @@ inline void setAdhesion(Contact& contact, double height, double stress, double r
 /// 1, in terms of q = 1/D - 1/D0, which keeps all digits where a contact begins:
 ///   f = b1 q^2 (1/D + 1/D0)^2,  U = b1 q^3 (1/3 + D/D0),  k = 4 b1 q (1/D + 1/D0) / D^3
 /// The center of a particle is below the surface only if it has started there; the force is then that at the surface.
-inline void setRepulsion(Contact& contact, const Surface& surface, double gravity, const Probe& probe) {
+[[gnu::always_inline]] inline void setRepulsion(Contact& contact, const Surface& surface, double gravity,
+                                                const Probe& probe) {
     const double strength = wallStrength(probe, gravity);
     const double height = std::max(surface.height, 0.0);
     const double distance = height + probe.radius;
@@ -124,7 +125,8 @@ inline void setRepulsion(Contact& contact, const Surface& surface, double gravit
         contact.damping += probe.damping * probe.dampingReach * toRest * distance * distance;
 }
 
-inline Contact contactWith(const Surface& surface, const Obstacles& obstacles, const Probe& probe) {
+[[gnu::always_inline]] inline Contact contactWith(const Surface& surface, const Obstacles& obstacles,
+                                                  const Probe& probe) {
     Contact contact;
     contact.isPaper = obstacles.wall == WallLaw::paper;
     if (contact.isPaper) {

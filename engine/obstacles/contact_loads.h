@@ -30,7 +30,6 @@ class SharedLoads {
     ~SharedLoads() = default;
 
     void add(const ContactLoads& loads) {
-        if (loads.empty()) return;
         const std::lock_guard lock(mutex_);
         list_.insert(list_.end(), loads.begin(), loads.end());
     }

@@ -25,7 +25,7 @@ struct Surface {
     /// Of the obstacle's material where the particle's center is, m/s: a particle that an obstacle carries along as it
     /// turns is at rest relative to it. Along the normal the material has the same velocity at the face.
     Vec3 velocity = Vec3::Zero();
-    std::size_t obstacle = 0;                                        ///< index of the obstacle that it belongs to
+    std::size_t obstacle = 0;  ///< index of the obstacle that it belongs to
 };
 
 // The functions forEachSurface(shape, point, repulsorRadius, visit) call visit(Surface) for each face of a shape that
@@ -166,8 +166,8 @@ double forEachNear(const Obstacles& obstacles, const Vec3& point, double time, d
 /// Calls visit(Surface) for the surfaces of an obstacle, given by its index, that is turned or moves, if at a time (s)
 /// it may have one within a distance `reach` (m) of a point.
 template <class Visit>
-void forEachPlacedSurface(const Obstacles& obstacles, std::size_t obstacle, const Vec3& point, double time,
-                          double reach, const Visit& visit) {
+[[gnu::noinline]] void forEachPlacedSurface(const Obstacles& obstacles, std::size_t obstacle, const Vec3& point,
+                                            double time, double reach, const Visit& visit) {
     if (time >= obstacles.motions[obstacle].until) return;
     const Pose pose = poseOf(obstacles, obstacle, time);
     const Vec3 inShape = pose.toShape(point);

@@ -91,6 +91,7 @@ struct ContactBounds {
 /// Only a scale: what is compared with a path at this speed is measured in it, too.
 double speedAmong(const Obstacles& obstacles, const Probe& particle) {
     const double own = std::sqrt(squaredLength(particle.velocity));
+    if (obstacles.motions.empty()) return own;
     double fastest = 0.0;
     for (std::size_t k = 0; k < obstacles.motions.size(); ++k) {
         if (obstacles.motions[k].isAtRest() || particle.time >= obstacles.motions[k].until) continue;
@@ -234,10 +235,11 @@ void kick(const Obstacles& obstacles, Probe& particle, double step, ContactLoads
 class ElasticContact {
  public:
     /// Takes note of a contact at the start of a small step.
-    void meet(const Surface& surface, const Contact& contact) {
+    [[gnu::always_inline]] void meet(const Surface& surface, const Contact& contact) {
         now_.count += 1;
-        now_.isLossless &= !contact.isPaper && contact.damping == 0.0 && contact.friction == 0.0;
-        now_.energy += contactEnergy(contact);
+        now_.isLossless = !contact.isPaper && contact.damping == 0.0 && contact.friction == 0.0;
+        if (!now_.isLossless) return;
+        now_.energy = contactEnergy(contact);
         now_.normal = surface.normal;
         now_.velocity = surface.velocity;
         now_.obstacle = surface.obstacle;
@@ -247,8 +249,32 @@ class ElasticContact {
     /// begins the next small step. Only where it has touched a single surface that rebounds without loss and does not
     /// accelerate.
     void conserve(const Obstacles& obstacles, Probe& particle, ContactLoads* loads) {
-        const bool isAlone = now_.count == 1 && now_.isLossless && now_.velocity == before_.velocity;
-        if (isMet() && (isAlone || now_.count == 0)) {
+        if (before_.isAlone() || now_.isAlone())
+            conserveAlone(obstacles, particle, loads);
+        else
+            before_.count = 0;
+        now_.count = 0;
+    }
+
+    /// Whether the last small step began in contact with a surface that rebounds without loss.
+    bool isMet() const { return before_.isAlone(); }
+
+ private:
+    struct Met {
+        int count = 0;
+        bool isLossless = true;
+        double energy = 0.0;  ///< at the surface, J
+        double total = 0.0;   ///< with that of the motion relative to the surface, J
+        Vec3 normal = Vec3::UnitY();
+        Vec3 velocity = Vec3::Zero();  ///< m/s
+        std::size_t obstacle = 0;
+
+        bool isAlone() const { return count == 1 && isLossless; }
+    };
+
+    void conserveAlone(const Obstacles& obstacles, Probe& particle, ContactLoads* loads) {
+        if (now_.count == 0) now_ = {};
+        if (before_.isAlone() && (now_.count == 0 || (now_.isAlone() && now_.velocity == before_.velocity))) {
             const Vec3 normal = now_.count == 1 ? now_.normal : before_.normal;
             const Vec3 velocity = particle.velocity - before_.velocity;
             const double excess = 0.5 * particle.mass * squaredLength(velocity) + now_.energy - before_.total;
@@ -264,22 +290,7 @@ class ElasticContact {
         }
         now_.total = now_.energy + 0.5 * particle.mass * squaredLength(particle.velocity - now_.velocity);
         before_ = now_;
-        now_ = {};
     }
-
-    /// Whether the last small step began in contact with a surface that rebounds without loss.
-    bool isMet() const { return before_.count == 1 && before_.isLossless; }
-
- private:
-    struct Met {
-        int count = 0;
-        bool isLossless = true;
-        double energy = 0.0;  ///< at the surface, J
-        double total = 0.0;   ///< with that of the motion relative to the surface, J
-        Vec3 normal = Vec3::UnitY();
-        Vec3 velocity = Vec3::Zero();  ///< m/s
-        std::size_t obstacle = 0;
-    };
 
     Met before_, now_;
 };
@@ -331,18 +342,23 @@ int advanceThroughContacts(const Obstacles& obstacles, Probe& particle, double d
             hits += moveAmongBarriers(obstacles, particle, step, Arrival::rebounds, loads);
     };
     ElasticContact elastic;
-    const auto findBounds = [&] {
+    const auto findBounds = [&]() __attribute__((always_inline)) {
         constexpr double kAnyDuration = std::numeric_limits<double>::infinity();
-        const ContactBounds bounds =
-            findContactBounds(obstacles, particle, kAnyDuration,
-                              [&](const Surface& surface, const Contact& contact) { elastic.meet(surface, contact); });
+        const ContactBounds bounds = findContactBounds(
+            obstacles, particle,
+            kAnyDuration, [&](const Surface& surface, const Contact& contact) __attribute__((always_inline)) {
+                elastic.meet(surface, contact);
+            });
         elastic.conserve(obstacles, particle, loads);
         return bounds;
     };
     const double end = particle.time + duration;
     double remaining = duration;
-    for (int count = 0; remaining > 0.0 && count < kMostSteps; ++count) {
+    for (int count = 0;; ++count) {
+        const bool isOver = !(remaining > 0.0) || count == kMostSteps;
+        if (isOver && !elastic.isMet()) break;
         const ContactBounds bounds = findBounds();
+        if (isOver) break;
         const double speed = bounds.speed;
         // Written so that a NaN speed ends the loop; the check after the step reports it.
         if (!(speed * remaining > bounds.reach) && (bounds.reach > 0.0 || !(speed >= 0.0))) {
@@ -357,7 +373,6 @@ int advanceThroughContacts(const Obstacles& obstacles, Probe& particle, double d
         if (isPaper) reflectAtBarriers(obstacles, particle);
         remaining = step >= remaining ? 0.0 : remaining - step;
     }
-    if (elastic.isMet()) findBounds();
     particle.time = end;
     return hits;
 }

@@ -2,7 +2,6 @@
 #include "engine/stepping/obstacle_loads.h"
 
 #include "engine/ranks/exact_sums.h"
-#include "engine/stepping/step_cache.h"
 
 namespace engine {
 namespace {
@@ -22,13 +21,6 @@ std::array<double, kNumbers> numbersOf(const ContactLoad& load, const Vec3& pivo
 }
 
 }  // namespace
-
-LoadRecorder::LoadRecorder(Simulation& simulation)
-    : shared_(simulation.cache->loads), isRecording_(!simulation.setup.obstacles.areRecorded.empty()) {}
-
-LoadRecorder::~LoadRecorder() {
-    shared_.add(loads_);
-}
 
 void addUpLoads(Simulation& simulation) {
     const Obstacles& obstacles = simulation.setup.obstacles;

@@ -3,16 +3,20 @@
 #pragma once
 
 #include "engine/state/simulation.h"
+#include "engine/stepping/step_cache.h"
 
 namespace engine {
 
-/// Records loads of contacts, and passes them on when it is destroyed.
+/// Records loads of contacts, and passes them on when it is destroyed. Inline, because most particles have none.
 class LoadRecorder {
  public:
-    explicit LoadRecorder(Simulation& simulation);
+    explicit LoadRecorder(Simulation& simulation)
+        : shared_(simulation.cache->loads), isRecording_(!simulation.setup.obstacles.areRecorded.empty()) {}
     LoadRecorder(const LoadRecorder&) = delete;
     LoadRecorder& operator=(const LoadRecorder&) = delete;
-    ~LoadRecorder();
+    ~LoadRecorder() {
+        if (!loads_.empty()) shared_.add(loads_);
+    }
 
     /// The list in which contacts are recorded; null where the loads of no obstacle are.
     ContactLoads* list() { return isRecording_ ? &loads_ : nullptr; }
