@@ -95,15 +95,19 @@ if wanted constants; then
 fi
 
 shapes=0
-shape() { # table, lines of TOML without it, frame: a picture of docs/shapes.toml or docs/bodies.toml with that table added
-    local scene="$work/shape.toml" base=docs/shapes.toml
+shape() { # table, frame, shape, its keys: a picture of docs/shapes.toml or docs/bodies.toml with that table added
+    local base=docs/shapes.toml
     [ "$1" = body ] && base=docs/bodies.toml
-    cp scenes/library/star.obj "$work/"
-    { cat "$base"; printf '\n[[%s]]\n%s\n' "$1" "$2"; } > "$scene"
-    labelled "$scene" "$3" "$work/shapes-$(printf %02d "$shapes").png" "$(sed -n 's/^shape = "\(.*\)"/\1/p' <<< "$2")"
+    { cat "$base"; printf '\n[[%s]]\nshape = "%s"\n%s\n' "$1" "$3" "${4//; /$'\n'}"; } > "$work/shape.toml"
+    labelled "$work/shape.toml" "$2" "$work/shapes-$(printf %02d "$shapes").png" "$3"
     shapes=$((shapes + 1))
 }
-
+obstacle() { # shape, its keys
+    shape obstacle 50 "$1" "$2; friction = 0.3"
+}
+body() { # shape, its keys
+    shape body 0 "$@"
+}
 sheet() { # columns x rows, picture: the pictures of shapes since the last sheet
     ffmpeg -v error -y -i "$work/shapes-%02d.png" -vf "tile=$1:padding=4" -frames:v 1 -c:v libwebp -quality 85 "$2"
     rm "$work"/shapes-*.png
@@ -111,84 +115,37 @@ sheet() { # columns x rows, picture: the pictures of shapes since the last sheet
 }
 
 if wanted shapes; then
-    bowl='profile = [[0, 0.1], [0.5, 0.1], [0.8, 0.5], [0.9, 1]]'
-    for lines in 'shape = "plane"
-normal = [0.2, 1, 0]' 'shape = "box"
-center = [0, 0.5, 0]
-size = [1, 1, 1]
-rotation = [0, 30, 0]' 'shape = "container"
-minimum = [-0.7, 0, -0.6]
-maximum = [0.7, 2.7, 0.6]' 'shape = "sphere"
-center = [0, 0.6, 0]
-radius = 0.6' 'shape = "cylinder"
-center = [0, 0.5, 0]
-radius = 0.6
-height = 1' 'shape = "cone"
-center = [0, 0.6, 0]
-radius = 0.8
-height = 1.2' 'shape = "frustum"
-center = [0, 0.5, 0]
-radius = 0.8
-top_radius = 0.4
-height = 1' 'shape = "capsule"
-center = [0, 0.6, 0]
-radius = 0.4
-height = 1.8
-rotation = [0, 30, 90]' "shape = \"revolution\"
-$bowl
-thickness = 0.12" 'shape = "mesh"
-file = "star.obj"
-center = [0, 0.8, 0]
-rotation = [15, 0, 0]'; do
-        shape obstacle "$lines
-friction = 0.3" 50
-    done
-    sheet 5x2 docs/shapes.webp
-
+    cp scenes/library/star.obj "$work/"
     # A heart in black on white.
     ffmpeg -v error -y -f lavfi -i color=white:s=200x200,format=gray -vf \
         "geq=lum='255*gt(pow(pow((X-100)/70,2)+pow((95-Y)/70,2)-1,3)-pow((X-100)/70,2)*pow((95-Y)/70,3),0)'" \
         -frames:v 1 "$work/heart.png"
-    for lines in 'shape = "box"
-minimum = [-0.6, 0, -0.5]
-maximum = [0.6, 1, 0.5]' 'shape = "ball"
-center = [0, 0.7, 0]
-radius = 0.7' 'shape = "grid"
-center = [0, 0.6, 0]
-counts = [9, 9, 9]
-spacing = 0.13' 'shape = "cylinder"
-center = [0, 0.6, 0]
-radius = 0.6
-height = 1.2' 'shape = "cone"
-center = [0, 0.6, 0]
-radius = 0.8
-height = 1.2' 'shape = "frustum"
-center = [0, 0.5, 0]
-radius = 0.8
-top_radius = 0.4
-height = 1' 'shape = "capsule"
-center = [0, 0.5, 0]
-radius = 0.4
-height = 1.8
-rotation = [0, 30, 90]' 'shape = "shell"
-center = [0, 0.7, 0]
-radius = 0.7
-thickness = 0.1' "shape = \"revolution\"
-$bowl
-thickness = 0.2" 'shape = "mesh"
-file = "star.obj"
-center = [0, 0.95, 0]
-rotation = [60, 0, 0]' 'shape = "text"
-text = "abc"
-center = [0, 0.62, 0]
-height = 1.1
-depth = 0.4' 'shape = "image"
-file = "heart.png"
-center = [0, 0.75, 0]
-width = 1.8
-depth = 0.4'; do
-        shape body "$lines" 0
-    done
+    bowl='profile = [[0, 0.1], [0.5, 0.1], [0.8, 0.5], [0.9, 1]]'
+
+    obstacle plane 'normal = [0.2, 1, 0]'
+    obstacle box 'center = [0, 0.5, 0]; size = [1, 1, 1]; rotation = [0, 30, 0]'
+    obstacle container 'minimum = [-0.7, 0, -0.6]; maximum = [0.7, 2.7, 0.6]'
+    obstacle sphere 'center = [0, 0.6, 0]; radius = 0.6'
+    obstacle cylinder 'center = [0, 0.5, 0]; radius = 0.6; height = 1'
+    obstacle cone 'center = [0, 0.6, 0]; radius = 0.8; height = 1.2'
+    obstacle frustum 'center = [0, 0.5, 0]; radius = 0.8; top_radius = 0.4; height = 1'
+    obstacle capsule 'center = [0, 0.6, 0]; radius = 0.4; height = 1.8; rotation = [0, 30, 90]'
+    obstacle revolution "$bowl; thickness = 0.12"
+    obstacle mesh 'file = "star.obj"; center = [0, 0.8, 0]; rotation = [15, 0, 0]'
+    sheet 5x2 docs/shapes.webp
+
+    body box 'minimum = [-0.6, 0, -0.5]; maximum = [0.6, 1, 0.5]'
+    body ball 'center = [0, 0.7, 0]; radius = 0.7'
+    body grid 'center = [0, 0.6, 0]; counts = [9, 9, 9]; spacing = 0.13'
+    body cylinder 'center = [0, 0.6, 0]; radius = 0.6; height = 1.2'
+    body cone 'center = [0, 0.6, 0]; radius = 0.8; height = 1.2'
+    body frustum 'center = [0, 0.5, 0]; radius = 0.8; top_radius = 0.4; height = 1'
+    body capsule 'center = [0, 0.5, 0]; radius = 0.4; height = 1.8; rotation = [0, 30, 90]'
+    body shell 'center = [0, 0.7, 0]; radius = 0.7; thickness = 0.1'
+    body revolution "$bowl; thickness = 0.2"
+    body mesh 'file = "star.obj"; center = [0, 0.95, 0]; rotation = [60, 0, 0]'
+    body text 'text = "abc"; center = [0, 0.62, 0]; height = 1.1; depth = 0.4'
+    body image 'file = "heart.png"; center = [0, 0.75, 0]; width = 1.8; depth = 0.4'
     sheet 6x2 docs/bodies.webp
 fi
 
