@@ -94,7 +94,7 @@ constexpr double kGap = 24.0;          // between the panels of an obstacle
 constexpr double kTitleHeight = 44.0;  // of the figure's title
 constexpr double kNameHeight = 40.0;   // above the first panel of an obstacle
 constexpr double kAxisHeight = 72.0;   // below its last panel
-constexpr double kLeft = 118.0;         // beside a panel
+constexpr double kLeft = 118.0;        // beside a panel
 constexpr double kRight = 24.0;
 constexpr double kBlockHeight = kNameHeight + 3 * kPanelHeight + 2 * kGap + kAxisHeight;
 
