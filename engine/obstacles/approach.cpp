@@ -41,8 +41,8 @@ struct Search {
         const Vec3 point = motion.position + time * motion.velocity;
         const auto visit = [&](const Surface& surface) {
             if (surface.height >= nearest.height) return;
-            nearest = {surface.height, surface.normal, surface.velocity,
-                       -dot(motion.velocity - surface.velocity, surface.normal)};
+            const Vec3 velocity = materialVelocity(surface);
+            nearest = {surface.height, surface.normal, velocity, -dot(motion.velocity - velocity, surface.normal)};
         };
         constexpr double kAnyDistance = std::numeric_limits<double>::infinity();
         if (isPlaced(obstacles, obstacle))

@@ -164,7 +164,7 @@ inline double contactEnergy(const Contact& contact) {
 
 /// Velocity of a particle relative to the material of a surface, m/s.
 inline Vec3 relativeVelocity(const Probe& probe, const Surface& surface) {
-    return probe.velocity - surface.velocity;
+    return surface.motion == nullptr ? probe.velocity : Vec3(probe.velocity - surface.motion->velocity);
 }
 
 /// Energy of a particle at a surface of an obstacle, in joules; 0 where the surface does not act on it.
@@ -194,7 +194,7 @@ inline Vec3 slipVelocity(const Vec3& velocity, const Vec3& normal) {
 inline void recordLoad(const Surface& surface, const Vec3& impulse, const Obstacles& obstacles, const Probe& probe,
                        ContactLoads& loads) {
     if (!isRecorded(obstacles, surface.obstacle)) return;
-    loads.push_back({surface.obstacle, impulse, probe.position, surface.velocity, probe.time});
+    loads.push_back({surface.obstacle, impulse, probe.position, materialVelocity(surface), probe.time});
 }
 
 /// Damping of a contact along the surface's normal, in kg/s.

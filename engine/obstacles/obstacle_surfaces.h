@@ -13,6 +13,15 @@ namespace engine {
 /// The surface of an obstacle for which the scene says nothing else.
 inline constexpr WallSurface kPlainWall;
 
+/// How the material of an obstacle moves near a particle. Along the normal of a face both velocities are the same.
+struct SurfaceMotion {
+    /// Where the particle's center is, m/s. Damping and friction follow from it: a particle that an obstacle carries
+    /// along as it turns is at rest relative to it.
+    Vec3 velocity = Vec3::Zero();
+    /// At the face, m/s: no faster than fastestSurface() says.
+    Vec3 faceVelocity = Vec3::Zero();
+};
+
 /// One face of an obstacle relative to one particle.
 struct Surface {
     double height = 0.0;                                             ///< distance of the particle's center, signed, m
@@ -22,11 +31,14 @@ struct Surface {
     double curvature = 0.0;                                          ///< 1/radius of a sphere, otherwise 0; 1/m
     const WallSurface* wall = &kPlainWall;                           ///< how it answers under the scaled wall law
     double slope = 1.0;                                              ///< change of the height along the normal
-    /// Of the obstacle's material where the particle's center is, m/s: a particle that an obstacle carries along as it
-    /// turns is at rest relative to it. Along the normal the material has the same velocity at the face.
-    Vec3 velocity = Vec3::Zero();
-    std::size_t obstacle = 0;  ///< index of the obstacle that it belongs to
+    const SurfaceMotion* motion = nullptr;                           ///< null for an obstacle at rest, which most are
+    std::size_t obstacle = 0;                                        ///< index of the obstacle that it belongs to
 };
+
+/// Velocity of the obstacle's material where the particle's center is, m/s.
+inline Vec3 materialVelocity(const Surface& surface) {
+    return surface.motion == nullptr ? Vec3(Vec3::Zero()) : surface.motion->velocity;
+}
 
 // The functions forEachSurface(shape, point, repulsorRadius, visit) call visit(Surface) for each face of a shape that
 // can act on a particle at the point (m, in the shape's coordinates), at any distance.
@@ -176,7 +188,9 @@ template <class Visit>
             if (!mayReach(shape, inShape, reach)) return;
             forEachSurface(shape, inShape, obstacles.law.radius, [&](Surface surface) {
                 surface.normal = pose.rotation * surface.normal;
-                surface.velocity = pose.velocityAt(point);
+                const Vec3 foot = point - surface.height * surface.normal;
+                const SurfaceMotion motion{pose.velocityAt(point), pose.velocityAt(foot)};
+                surface.motion = &motion;
                 visit(surface);
             });
         },

@@ -177,6 +177,13 @@ inline Pose poseOf(const Obstacles& obstacles, std::size_t obstacle, double time
     return poseAt(motion, time);
 }
 
+/// Velocity at a time (s) of an obstacle's material at a point of the scene, m/s.
+inline Vec3 velocityOf(const Obstacles& obstacles, std::size_t obstacle, double time, const Vec3& point) {
+    for (const PosesAt& end : obstacles.kept.ends)
+        if (end.time == time) return end.poses[obstacle].velocityAt(point);
+    return velocityAt(obstacles.motions[obstacle], time, point);
+}
+
 /// The point about which an obstacle's torque is taken, at a time (s): its pivot, m.
 Vec3 pivotAt(const Obstacles& obstacles, std::size_t obstacle, double time);
 

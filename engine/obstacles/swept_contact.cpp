@@ -95,10 +95,15 @@ double speedAmong(const Obstacles& obstacles, const Probe& particle) {
     double fastest = 0.0;
     for (std::size_t k = 0; k < obstacles.motions.size(); ++k) {
         if (obstacles.motions[k].isAtRest() || particle.time >= obstacles.motions[k].until) continue;
-        const Vec3 velocity = velocityAt(obstacles.motions[k], particle.time, particle.position);
+        const Vec3 velocity = velocityOf(obstacles, k, particle.time, particle.position);
         fastest = std::max(fastest, squaredLength(velocity));
     }
     return own + std::sqrt(fastest);
+}
+
+/// Velocity of a particle relative to the face of an obstacle, m/s.
+Vec3 velocityToFace(const Probe& particle, const Surface& surface) {
+    return surface.motion == nullptr ? particle.velocity : Vec3(particle.velocity - surface.motion->faceVelocity);
 }
 
 /// Length over which the force of a paper's wall changes near its surface or its barrier, m, or `known` if that is
@@ -139,7 +144,7 @@ ContactBounds findContactBounds(const Obstacles& obstacles, const Probe& particl
         obstacles, particle.position, particle.time, reach, [&](const Surface& surface) __attribute__((always_inline)) {
             const double gap = surface.height - contactReach(*surface.wall, radius);
             const double longer =
-                arePlaced ? bounds.speed / std::sqrt(squaredLength(relativeVelocity(particle, surface))) : 1.0;
+                arePlaced ? bounds.speed / std::sqrt(squaredLength(velocityToFace(particle, surface))) : 1.0;
             bounds.gap = std::min(bounds.gap, gap);
             bounds.reach = std::min(bounds.reach, gap > 0.0 ? longer * gap : gap);
             bounds.scale = obstacles.wall == WallLaw::paper
@@ -205,8 +210,7 @@ void kick(const Obstacles& obstacles, Probe& particle, double step, ContactLoads
         const double along = dampingAlong(contact);
         force += normalForce(contact, 0.0) * surface.normal;
         damping += along * surface.normal * surface.normal.transpose();
-        if (isPlaced(obstacles, surface.obstacle))
-            force += along * dot(surface.velocity, surface.normal) * surface.normal;
+        if (surface.motion != nullptr) force += along * dot(surface.motion->velocity, surface.normal) * surface.normal;
         Vec3 friction = Vec3::Zero();
         if (contact.friction > 0.0)
             friction = applyFriction(particle, surface, contact.friction * pressureForce(contact) * step);
@@ -241,7 +245,7 @@ class ElasticContact {
         if (!now_.isLossless) return;
         now_.energy = contactEnergy(contact);
         now_.normal = surface.normal;
-        now_.velocity = surface.velocity;
+        now_.velocity = materialVelocity(surface);
         now_.obstacle = surface.obstacle;
     }
 
