@@ -34,7 +34,9 @@ std::vector<Vec3> cornersOf(const engine::BoundingBox& box) {
 std::vector<double> momentsOf(const Motion& motion) {
     std::vector<double> moments = {0.0};
     const auto addBetween = [&](double from, double to) {
-        for (int k = 0; k <= kMoments; ++k) moments.push_back(from + (to - from) * k / kMoments);
+        const double end = std::min(to, motion.until);
+        if (from > end) return;
+        for (int k = 0; k <= kMoments; ++k) moments.push_back(from + (end - from) * k / kMoments);
     };
     for (std::size_t key = 1; key < motion.keys.size(); ++key)
         addBetween(motion.keys[key - 1].time, motion.keys[key].time);

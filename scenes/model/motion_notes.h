@@ -16,8 +16,8 @@ struct MotionNote {
     std::size_t number = 0;  ///< its number among those of its kind, from 1
     std::string shape;       ///< of an obstacle, as the scene file names it; empty for an emitter
     std::string text;        ///< "moves at 1.2 m/s along +y until 2 s, then is taken away"
-    /// An upper bound on the speed of any point of an obstacle's surface or of an emitter's nozzle, m/s; nothing for
-    /// what has no end and turns.
+    /// The largest speed of the corners of the box around an obstacle or of an emitter's nozzle while it is there,
+    /// found to some thousandths, m/s; nothing for what has no end and turns.
     std::optional<double> fastest;
     /// How far that takes an obstacle's surface from frame to frame, in radii of the smallest particles; nothing where
     /// the speed is not known and for emitters.
