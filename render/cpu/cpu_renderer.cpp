@@ -64,7 +64,10 @@ void CpuRenderer::draw(const PreparedView& view, const LayerSelection& wanted, L
 // while the camera, the light and all meshes are at rest.
 void CpuRenderer::placeMeshes(const PreparedView& view, DrawTimes& times) {
     PlacedMeshes placed{view.meshes.obstacles, view.frame, view.lineMargin(), view.light, view.meshDepthMap};
-    if (placed == placedMeshes_) return;
+    if (placed == placedMeshes_) {
+        if (!view.meshes.empty()) meshTiles_.meshes = &view.meshes;  // equal ones, maybe in another place
+        return;
+    }
     placedMeshes_.reset();
     const auto bin = [&] { meshTiles_ = meshTiles(view.frame, view.meshes, view.lineMargin(), std::move(meshTiles_)); };
     const auto drawMap = [&] {
