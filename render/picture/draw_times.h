@@ -12,7 +12,7 @@ namespace render {
 struct DrawTimes {
     double bin = 0.0;        ///< sorting balls, spheres, boxes, lines and ground into tiles
     double occlusion = 0.0;  ///< computing the sky visibility
-    double shadow = 0.0;     ///< building the light's grid of spheres and the depth map of the metaballs
+    double shadow = 0.0;     ///< building the light's grid of spheres and the depth maps of metaballs and meshes
     double cast = 0.0;       ///< ray casting of metaballs
     double color = 0.0;      ///< primary hits and shading
     double upload = 0.0;     ///< handing the prepared view over to OpenGL

@@ -24,8 +24,8 @@ std::vector<MeshPicture> meshPictures();
 std::string nameOf(const MeshPicture& picture);
 
 /// Measures drawing a picture of 1280 x 720 pixels with shadows on the CPU, of particles in the hole of a torus that is
-/// as wide as the picture is high. The hash is that of the pixels of the first
-/// picture, which is drawn again after the others.
+/// as wide as the picture is high. The hash is that of the pixels of the first picture, which is drawn again after the
+/// others.
 BenchRow meshPictureRow(const MeshPicture& picture, const BenchSettings& settings);
 
 }  // namespace studies

@@ -1,4 +1,4 @@
-// Draws plots with gnuplot. It reads the script from a pipe and writes the plot to another, so that it needs no files.
+// Draws plots with gnuplot, which reads the script from a pipe. The plot is taken from its output.
 #pragma once
 
 #include <string>
