@@ -44,6 +44,7 @@ TEST_CASE("A plot names scene, obstacles, quantities and units", "[plot]") {
     CHECK(outcome.err.empty());
     const std::string svg = textOf(of.folder / "run/loads.svg");
     CHECK(svg.rfind("<?xml", 0) == 0);
+    CHECK(!has(svg, "Warning"));
     for (const char* text : {"it's a", "mill", "$x<", "obstacle 2 (capsule)<", "obstacle 11<", "force (N)",
                              "torque (N m)", "work (J)", "time (s)"}) {
         INFO(text);

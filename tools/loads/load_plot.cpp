@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "scenes/text/input_error.h"
 #include "scenes/text/read_file.h"
@@ -74,6 +75,16 @@ struct Panel {
 constexpr std::array kPanels = {Panel{"force (N)", 2, true}, Panel{"torque (N m)", 5, true},
                                 Panel{"work (J)", 8, false}};
 
+/// Where the curves of a panel are zero throughout, as where nothing has touched an obstacle, the range of its axis;
+/// otherwise gnuplot finds it. For an empty range gnuplot would write a warning into the plot.
+std::string rangeOf(const Panel& panel, const std::vector<LoadPoint>& points) {
+    const auto isZero = [&](const LoadPoint& point) {
+        if (!panel.isVector) return point.work == 0.0;
+        return (panel.column == kPanels[0].column ? point.force : point.torque) == std::array<double, 3>{};
+    };
+    return std::ranges::all_of(points, isZero) ? "set yrange [-1:1]\n" : "set yrange [*:*]\n";
+}
+
 /// The plot command of a panel.
 std::string curvesOf(const Panel& panel, int obstacle) {
     if (!panel.isVector)
@@ -128,14 +139,16 @@ std::string placeOf(const Layout& layout, std::size_t panel, std::size_t obstacl
 
 /// The commands of the three panels of an obstacle: its name and the key are above the first, the axis of time below
 /// the last.
-std::string panelsOf(const Layout& layout, std::size_t index, int obstacle, const std::string& name) {
+std::string panelsOf(const Layout& layout, std::size_t index, const std::pair<const int, std::string>& named,
+                     const std::vector<LoadPoint>& points) {
+    const auto& [obstacle, name] = named;
     std::string text = fmt::format("set label 1 {} at graph 0,1 offset 0,0.9 left font ',16'\nset key\n", quoted(name));
     for (std::size_t k = 0; k < kPanels.size(); ++k) {
         const bool isLast = k + 1 == kPanels.size();
         text += placeOf(layout, k, index);
         text += fmt::format("set format x '{}'\nset xlabel '{}'\nset ylabel '{}'\n", isLast ? "%g" : "",
                             isLast ? "time (s)" : "", kPanels[k].label);
-        text += curvesOf(kPanels[k], obstacle) + "unset label\nunset key\n";
+        text += rangeOf(kPanels[k], points) + curvesOf(kPanels[k], obstacle) + "unset label\nunset key\n";
     }
     return text;
 }
@@ -175,7 +188,7 @@ set key at graph 1,1.02 right bottom horizontal samplen 1.2 width -0.5 font ',13
     text += fmt::format("set xrange [0:{}]\nset multiplot title {} font ',18'\n",
                         loads.at(figure.names.begin()->first).back().time, quoted(figure.title));
     std::size_t index = 0;
-    for (const auto& [obstacle, name] : figure.names) text += panelsOf(layout, index++, obstacle, name);
+    for (const auto& named : figure.names) text += panelsOf(layout, index++, named, loads.at(named.first));
     return text + "unset multiplot\n";
 }
 
