@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Draws the pictures of README.md and docs/ into docs/: the first scene as a moving picture and with one key changed at a time,
 # a still of each scene of the library's top folder, and a strip of moments of each figure of the paper. Needs the program,
-# which figures.sh builds. With names (first, keys, constants, shapes, figures, splash, two-liquids, or scenes such as honey) it
-# draws these alone; with "times" it renders every scene that docs/gallery.md lists and prints particles, frames and processor
-# seconds.
+# which figures.sh builds. With names (first, keys, constants, shapes, loads, figures, splash, two-liquids, or scenes such as
+# honey) it draws these alone; with "times" it renders every scene that docs/gallery.md lists and prints particles, frames and
+# processor seconds.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -174,6 +174,10 @@ if wanted figures; then
     for figure in 1 2 3 4; do
         "$globular" strip "figure-$figure" --size 360x270 --quiet -o "docs/figure-$figure-strip.png"
     done
+fi
+if wanted loads; then
+    "$globular" simulate mixer --quiet -o "$work/loads"
+    "$globular" plot "$work/loads" --quiet -o docs/loads.png
 fi
 if wanted two-liquids; then
     "$globular" strip docs/two-liquids.toml --size 320x240 --quiet -o docs/two-liquids.png
