@@ -95,10 +95,10 @@ if wanted constants; then
 fi
 
 shapes=0
-shape() { # table, frame, shape, its keys: a picture of docs/shapes.toml or docs/bodies.toml with that table added
+shape() { # table, frame, shape, its keys: a picture of docs/shapes.toml or, in place of its body, docs/bodies.toml
     local base=docs/shapes.toml
     [ "$1" = body ] && base=docs/bodies.toml
-    { cat "$base"; printf '\n[[%s]]\nshape = "%s"\n%s\n' "$1" "$3" "${4//; /$'\n'}"; } > "$work/shape.toml"
+    { sed '/^\[\[body\]\]/,$d' "$base"; printf '\n[[%s]]\nshape = "%s"\n%s\n' "$1" "$3" "${4//; /$'\n'}"; } > "$work/shape.toml"
     labelled "$work/shape.toml" "$2" "$work/shapes-$(printf %02d "$shapes").png" "$3"
     shapes=$((shapes + 1))
 }
