@@ -36,9 +36,11 @@ struct BoundingBox {
 
     Vec3 middle() const { return 0.5 * (low + high); }
 
-    /// The squared distance of a point from the box; 0 inside.
-    double squaredDistance(const Vec3& point) const {
-        return squaredLength(point - point.cwiseMax(low).cwiseMin(high));
+    /// Whether a point is nearer to the box than `reach`, or insignificantly further away. A cheap test, without a
+    /// square root, that excludes what is far away.
+    bool isNear(const Vec3& point, double reach) const {
+        constexpr double kSlack = 1.0 + 1e-9;  // margin of the test; chosen: far above its rounding errors
+        return squaredLength(point - point.cwiseMax(low).cwiseMin(high)) < kSlack * reach * reach;
     }
 
     /// Extends the box to contain another.

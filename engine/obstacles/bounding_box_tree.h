@@ -25,12 +25,9 @@ class BoundingBoxTree {
     /// insignificantly further away. Always in the same order of indices, which is not that of the boxes.
     template <class Visit>
     void visitNear(const Vec3& point, double reach, const Visit& visit) const {
-        constexpr double kSlack = 1.0 + 1e-9;  // margin of the test; chosen: far above its rounding errors
-        const double limit = kSlack * reach * reach;
         for (std::size_t k = 0; k < nodes_.size();) {
             const Node& node = nodes_[k];
-            const Vec3 away = point - point.cwiseMax(node.bounds.low).cwiseMin(node.bounds.high);
-            if (!(squaredLength(away) < limit)) {
+            if (!node.bounds.isNear(point, reach)) {
                 k = node.next;
                 continue;
             }

@@ -135,18 +135,16 @@ inline const WallSurface& wallSurfaceOf(const Obstacles& obstacles, std::size_t 
 /// a normal, that excludes the many obstacles that are far away.
 template <class Shape>
 bool mayReach(const Shape& shape, const Vec3& point, double reach) {
-    constexpr double kSlack = 1.0 + 1e-9;  // margin of the test; chosen: far above its rounding errors
     if constexpr (std::is_same_v<Shape, Sphere>) {
+        constexpr double kSlack = 1.0 + 1e-9;  // as in BoundingBox::isNear()
         const double within = shape.radius + reach;
         return squaredLength(point - shape.center) < kSlack * within * within;
     } else if constexpr (std::is_same_v<Shape, Box>) {
-        const Vec3 closest = point.cwiseMax(shape.minimum).cwiseMin(shape.maximum);
-        return squaredLength(point - closest) < kSlack * reach * reach;
+        return BoundingBox{shape.minimum, shape.maximum}.isNear(point, reach);
     } else if constexpr (std::is_same_v<Shape, Container>) {
         return ((point - shape.minimum).array() < reach).any() || ((shape.maximum - point).array() < reach).any();
     } else if constexpr (isKnownByDistance<Shape>) {
-        const Vec3 closest = point.cwiseMax(shape.bounds.low).cwiseMin(shape.bounds.high);
-        return squaredLength(point - closest) < kSlack * reach * reach;
+        return shape.bounds.isNear(point, reach);
     } else {
         return true;
     }
@@ -161,8 +159,7 @@ double forEachNear(const Obstacles& obstacles, const Vec3& point, double time, d
     const bool areBounded = !obstacles.kept.swept.empty() && obstacles.kept.include(time);
     bool isOneAway = false;
     const auto visitUnlessAway = [&](std::size_t k) __attribute__((always_inline)) {
-        constexpr double kSlack = 1.0 + 1e-9;  // margin of the test; chosen: far above its rounding errors
-        const bool isAway = areBounded && !(obstacles.kept.swept[k].squaredDistance(point) < kSlack * reach * reach);
+        const bool isAway = areBounded && !obstacles.kept.swept[k].isNear(point, reach);
         isOneAway |= isAway;
         if (!isAway) visit(k);
     };
