@@ -68,26 +68,25 @@ std::string dataOf(int obstacle, const std::vector<LoadPoint>& points) {
 
 /// One of the panels of each obstacle.
 struct Panel {
-    const char* label;   ///< of the vertical axis
-    std::size_t column;  ///< of the data, from 1; that of x for a vector
-    bool isVector;
+    const char* label;                                   ///< of the vertical axis
+    std::size_t column;                                  ///< of the data, from 1; that of x for a vector
+    std::array<double, 3> LoadPoint::*vector = nullptr;  ///< what it shows; null for the work
 };
-constexpr std::array kPanels = {Panel{"force (N)", 2, true}, Panel{"torque (N m)", 5, true},
-                                Panel{"work (J)", 8, false}};
+constexpr std::array kPanels = {Panel{"force (N)", 2, &LoadPoint::force}, Panel{"torque (N m)", 5, &LoadPoint::torque},
+                                Panel{"work (J)", 8}};
 
 /// Where the curves of a panel are zero throughout, as where nothing has touched an obstacle, the range of its axis;
 /// otherwise gnuplot finds it. For an empty range gnuplot would write a warning into the plot.
 std::string rangeOf(const Panel& panel, const std::vector<LoadPoint>& points) {
     const auto isZero = [&](const LoadPoint& point) {
-        if (!panel.isVector) return point.work == 0.0;
-        return (panel.column == kPanels[0].column ? point.force : point.torque) == std::array<double, 3>{};
+        return panel.vector == nullptr ? point.work == 0.0 : point.*panel.vector == std::array<double, 3>{};
     };
     return std::ranges::all_of(points, isZero) ? "set yrange [-1:1]\n" : "set yrange [*:*]\n";
 }
 
 /// The plot command of a panel.
 std::string curvesOf(const Panel& panel, int obstacle) {
-    if (!panel.isVector)
+    if (panel.vector == nullptr)
         return fmt::format("plot $load{} using 1:{} with lines linewidth 2 linecolor rgb '#444444' notitle\n", obstacle,
                            panel.column);
     constexpr std::array kAxes = {"x", "y", "z"};
