@@ -2,8 +2,10 @@
 // compiled once per instruction set.
 #include "render/cpu/shading/shade.h"
 
-#include <algorithm>
 #include <array>
+
+#include "render/cpu/metaballs/ray_layout.h"
+#include "render/cpu/shading/dither.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/cpu/shading/shade.cpp"
@@ -11,6 +13,30 @@
 #include <hwy/highway.h>
 
 #include "render/prepare/simd_rays-inl.h"
+
+#ifndef RENDER_SHADE_DITHER
+#define RENDER_SHADE_DITHER
+namespace render {
+namespace {
+
+/// The thresholds of a tile's pixels row by row, and in the order of kZCurve. A tile is a whole number of patterns.
+struct TileDither {
+    alignas(64) std::array<float, kTilePixels> ofPixels{}, alongCurve{};
+
+    constexpr TileDither() {
+        static_assert(kTileSize % kDitherSide == 0);
+        for (unsigned k = 0; k < kTilePixels; ++k) {
+            ofPixels[k] = ditherThreshold(k % kTileSize, k / kTileSize);
+            alongCurve[k] = ditherThreshold(kZCurve[k] % kTileSize, kZCurve[k] / kTileSize);
+        }
+    }
+};
+
+constexpr TileDither kDither;
+
+}  // namespace
+}  // namespace render
+#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace render {
@@ -36,12 +62,12 @@ HWY_INLINE V groundFade(const Vec3& position, glm::vec3 center, float fadeDistan
     return fade / (splat(1.0F) + fade);
 }
 
-/// sRGB encoding of linear values from 0 to 1, in steps of 1/255, rounded to the nearest.
+/// sRGB encoding of linear values from 0 to 1, in steps of 1/255.
 ///
 /// 1.055 c^(1/2.4) - 0.055 is a smooth function of y = c^(1/4), two square roots away: a polynomial of degree 5 in y
 /// through the Chebyshev nodes of [0.0031308^(1/4), 1] is within 0.0025 of a step. tests/render/encode_test.cpp
 /// measures it.
-HWY_INLINE VI encodeSrgb(V linear) {
+HWY_INLINE V encodeSrgb(V linear) {
     const V square = hn::Sqrt(linear);
     const V y = hn::Sqrt(square);
     const auto quadratic = [&](float high, float middle, float low) {
@@ -50,18 +76,24 @@ HWY_INLINE VI encodeSrgb(V linear) {
     const V curve =
         quadratic(0.2727522F, 1.2442140F, -0.0616297F) + y * quadratic(-0.0627590F, -0.5575557F, 0.1649740F);
     const V value = hn::IfThenElse(linear <= splat(0.0031308F), splat(12.92F) * linear, curve);
-    return hn::ConvertTo(DI(), value * splat(255.0F) + splat(0.5F));
+    return value * splat(255.0F);
 }
 
 HWY_INLINE Vec3 clampUnit(const Vec3& color) {
     return {clamp(color.x, 0.0F, 1.0F), clamp(color.y, 0.0F, 1.0F), clamp(color.z, 0.0F, 1.0F)};
 }
 
-/// Clamps linear colors to [0, 1] and writes them to a vector of pixels as sRGB.
-HWY_INLINE void storeSrgb(const Vec3& linear, PixelColor* pixels) {
+/// Clamps linear colors to [0, 1] and encodes them as sRGB, in steps of 1/255.
+HWY_INLINE Vec3 encodedSteps(const Vec3& linear) {
     const Vec3 color = clampUnit(linear);
-    const VI packed = hn::Or(encodeSrgb(color.x),
-                             hn::Or(hn::ShiftLeft<8>(encodeSrgb(color.y)), hn::ShiftLeft<16>(encodeSrgb(color.z))));
+    return {encodeSrgb(color.x), encodeSrgb(color.y), encodeSrgb(color.z)};
+}
+
+/// Rounds encoded colors to whole steps by the pixels' thresholds, see dither.h, and writes them to a vector of pixels.
+HWY_INLINE void storeSteps(const Vec3& steps, V thresholds, PixelColor* pixels) {
+    const auto rounded = [&](V channel) { return hn::ConvertTo(DI(), channel + thresholds); };
+    const VI packed = hn::Or(rounded(steps.x),
+                             hn::Or(hn::ShiftLeft<8>(rounded(steps.y)), hn::ShiftLeft<16>(rounded(steps.z))));
     const hn::RebindToUnsigned<D> du;
     hn::StoreU(hn::BitCast(du, packed), du, pixels);
 }
@@ -247,27 +279,28 @@ void colorBackgroundTile(const ShadingGeometry& geometry, const Shading& shading
     const auto lanes = static_cast<int>(hn::Lanes(D()));
     const auto middlesFrom = [](int first) { return hn::Iota(D(), static_cast<float>(first) + 0.5F); };
     const auto rowOf = [&](int row) { return target.first + static_cast<std::size_t>(row) * target.rowLength; };
-    if (isGround) {
-        for (int row = 0; row < kTileSize; ++row) {
-            const V y = splat(static_cast<float>(target.corner.y + row) + 0.5F);
+    const auto thresholdsOf = [](int row, int column) {
+        return load(&kDither.ofPixels[static_cast<std::size_t>(row * kTileSize + column)]);
+    };
+    for (int row = 0; row < kTileSize; ++row) {
+        const V y = splat(static_cast<float>(target.corner.y + row) + 0.5F);
+        if (!isGround) {
+            // The background has one color in each row of pixels.
+            const Vec3 steps = encodedSteps(backgroundAt(geometry, shading, y));
             for (int column = 0; column < kTileSize; column += lanes)
-                storeSrgb(openGroundAt(geometry, shading, middlesFrom(target.corner.x + column), y),
-                          rowOf(row) + column);
+                storeSteps(steps, thresholdsOf(row, column), rowOf(row) + column);
+            continue;
         }
-        return;
-    }
-    // The background has one color in each row of pixels: a vector holds the colors of several rows.
-    for (int first = 0; first < kTileSize; first += lanes) {
-        std::array<PixelColor, kTileSize> colors;
-        storeSrgb(backgroundAt(geometry, shading, middlesFrom(target.corner.y + first)), colors.data());
-        for (int row = 0; row < lanes; ++row)
-            std::fill_n(rowOf(first + row), kTileSize, colors[static_cast<std::size_t>(row)]);
+        for (int column = 0; column < kTileSize; column += lanes) {
+            const Vec3 color = openGroundAt(geometry, shading, middlesFrom(target.corner.x + column), y);
+            storeSteps(encodedSteps(color), thresholdsOf(row, column), rowOf(row) + column);
+        }
     }
 }
 
 void encodeColors(const PointColors& colors, PixelColor* pixels) {
     for (std::size_t first = 0; first < kTilePixels; first += hn::Lanes(D()))
-        storeSrgb(loadVec3(colors.rgb, first), pixels + first);
+        storeSteps(encodedSteps(loadVec3(colors.rgb, first)), load(&kDither.alongCurve[first]), pixels + first);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -42,7 +42,7 @@ void shade(const Shading& shading, const ShadingGeometry& geometry, const Shadin
 /// A pixel in sRGB: 8 bits per channel, red in the lowest byte.
 using PixelColor = std::uint32_t;
 
-/// Encodes the colors of a tile's kTilePixels points as sRGB.
+/// Encodes the colors of a tile's kTilePixels points, which are ordered along kZCurve, as sRGB, dithered.
 void encodeColors(const PointColors& colors, PixelColor* pixels);
 
 /// Where a tile's pixels are written.

@@ -6,6 +6,7 @@ out vec4 pixel;
 #include "srgb.glsl"
 
 void main() {
-    vec4 sum = texelFetch(sums, ivec2(gl_FragCoord.xy), 0);
-    pixel = vec4(encode(sum.rgb / sum.w), 1.0);
+    ivec2 place = ivec2(gl_FragCoord.xy);
+    vec4 sum = texelFetch(sums, place, 0);
+    pixel = vec4(encode(sum.rgb / sum.w, place), 1.0);
 }

@@ -21,5 +21,5 @@ void main() {
 #else
     vec3 color = background(at.y);
 #endif
-    writeColor(color);
+    writeColor(color, ivec2(gl_FragCoord.xy));
 }
