@@ -120,8 +120,9 @@ Occluders CpuRenderer::occludersOf(const PreparedView& view) const {
     if (!view.lightGrid.empty()) occluders.spheres = &view.lightGrid;
     if (!depthMap_.empty()) occluders.metaballs = &depthMap_;
     if (!meshDepthMap_.empty()) occluders.meshes = &meshDepthMap_;
-    if (view.view->light.shadows && !view.view->boxObstacles.empty()) occluders.lightBoxes = &view.lightBoxes;
-    occluders.boxes = view.view->boxObstacles;
+    if (!view.shadowBoxes.boxes.empty()) occluders.lightBoxes = &view.lightBoxes;
+    occluders.boxes = view.shadowBoxes.boxes;
+    occluders.subtractedBoxCount = view.shadowBoxes.subtractedCount;
     occluders.softness = view.view->light.softness;
     occluders.meanRadius = view.meanRadius;
     if (view.hasOcclusion()) {

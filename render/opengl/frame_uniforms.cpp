@@ -74,7 +74,7 @@ FrameUniforms frameUniforms(const PreparedView& prepared, glm::vec2 offset) {
     to.skyCellCount = glm::vec4(sky.cells, 0);
     to.sampleOffset = {offset, 0.0F, 0.0F};
     if (prepared.hasMetaballs) setMetaballs(prepared, offset, to);
-    to.counts = glm::vec4(prepared.drawn.firstObstacle, view.surface.glossExponent, view.boxObstacles.size(), 0.0F);
+    to.counts = glm::vec4(prepared.drawn.firstObstacle, view.surface.glossExponent, prepared.shadowBoxes.boxes.size(), 0.0F);
     return to;
 }
 

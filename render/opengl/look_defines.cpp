@@ -18,7 +18,7 @@ void addLight(const PreparedView& prepared, TileClass kind, Defines& defines) {
     const View& view = *prepared.view;
     const bool castsShadows = view.light.shadows && kind != TileClass::openGround;
     const bool bySpheres = castsShadows && !prepared.lightGrid.empty();
-    const bool byBoxes = castsShadows && !view.boxObstacles.empty();
+    const bool byBoxes = castsShadows && !prepared.shadowBoxes.boxes.empty();
     addIf(bySpheres, "SPHERE_SHADOWS", defines);
     addIf(byBoxes, "BOX_SHADOWS", defines);
     addIf(byBoxes && !prepared.lightBoxes.isFew(), "BOX_CELLS", defines);

@@ -114,9 +114,10 @@ void ViewBuffers::uploadBoxes(const PreparedView& view) {
     uploadList(tileBoxes_, listed, "the tiles' lists of boxes");
     listed.clear();
     for (std::size_t k = 0; k < view.lightBoxes.boxes.index.size(); ++k) {
-        const BoxObstacle& box = obstacles[view.lightBoxes.boxes.index[k]];
+        const std::uint32_t index = view.lightBoxes.boxes.index[k];
+        const BoxObstacle& box = view.shadowBoxes.boxes[index];
         listed.emplace_back(box.minimum - eye, view.lightBoxes.boxes.top[k]);
-        listed.emplace_back(box.maximum - eye, 0.0F);
+        listed.emplace_back(box.maximum - eye, index < view.shadowBoxes.subtractedCount ? -1.0F : 1.0F);
     }
     uploadList(boxCasterBegins_, view.lightBoxes.begin, "the cells of the light's grid of boxes");
     uploadList(boxCasters_, listed, "the lists of boxes that cast shadows");

@@ -32,9 +32,7 @@
 // pole at grazing angles and 2.2 to leave a surface seen and lit head-on as bright as it was. fresnel is Schlick's
 // approximation (1994), highlight the Blinn-Phong lobe normalized to reflect the same energy at any exponent. The
 // shoulder compresses what is too bright to display: q has the value 0.7 and the slope 1 at p = 0.7 and stays below 1,
-// and the mix turns very bright colors white. At last the picture is clamped to [0, 1], sRGB encoded and rounded to 8
-// bits.
-//
+// and the mix turns very bright colors white.
 // 2. Background and ground
 //
 // The background is mix(bottom, top, t), where t runs from 0 at the bottom edge of the picture to 1 at the top edge.
@@ -68,11 +66,31 @@
 // covers
 //   edge(x/w)  with  w = S min(mean radius of the particles, E/2),
 // where x is the distance on the light's plane from the nearest of the lines through the sides of its outline, positive
-// inside, and E the distance at which the ray leaves it. A box behind the point covers nothing. Metaballs cover the
+// inside, and E the distance at which the ray leaves it. A box behind the point covers nothing.
+//
+// Boxes that touch or overlap would be counted twice where their outlines meet. Each group of boxes that are connected
+// by touching or overlapping ones is therefore joined. First the boxes grow through their neighbors: for one box after
+// another, for its faces +x, -x, +y, -y, +z, -z, and for one box of the group after another, a face that lies in that
+// box as a whole is moved to the far side of that box, again and again until no face moves. The boxes then fill the
+// same space. Those within others are left out, of equal ones all but the first. The group covers the sum of what the
+// boxes cover, less that of the intersections of each two, plus that of each three, and so on. Groups of more than 256
+// boxes, or with more than 16 terms to a box, are not joined.
+//
+// Metaballs cover the
 // share of rays to the light that meet them. With t = S/2 mean radii, these rays start around  p + 1.5 t n + 0.5 t l,
 // p being the point, and are spread over the light's plane with the weights of a quadratic B-spline, 3 t wide, along
 // each of the axes u and v of light_space.h. Meshes cover the share of such rays that enter a solid, which start around
 // p + 1.5 t |n x l| n. With S = 0 edges are sharp, up to the width of a pixel.
+//
+// 5. Rounding to 8 bits
+//
+// At last the picture is clamped to [0, 1] and sRGB encoded, which gives e from 0 to 255. A channel of the pixel in
+// column x and row y becomes
+//   floor(e + (m + 1/2)/64)  with  m = sum over the bits b = 0, 1, 2 of 4^(2 - b) (2 (x_b xor y_b) + y_b),
+// x_b being bit b of x. This is ordered dithering (Bayer 1973): over every 8 x 8 pixels of one color the mean is right
+// to 1/128 of a step, so that smooth gradients show no bands. A color that is a whole number of steps is not changed:
+// it stays flat. All of the picture is dithered and not only the sky, because the ground, soft shadows and large smooth
+// surfaces change as slowly as the sky does. Text and scales, and the layers for compositing, are not.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -46,9 +46,9 @@ void binForLight(PreparedView& to) {
     const View& view = *to.view;
     const bool castsShadows = to.settings.isShaded && view.light.shadows;
     to.lightGrid = castsShadows ? lightGrid(to.light, to.drawn.spheres, view.light.softness) : LightGrid{};
-    to.lightBoxes = castsShadows
-                        ? lightBoxGrid(to.light, to.frame, view.boxObstacles, view.light.softness * to.meanRadius)
-                        : LightBoxGrid{};
+    to.shadowBoxes = castsShadows ? shadowBoxes(view.boxObstacles) : ShadowBoxes{};
+    to.lightBoxes =
+        lightBoxGrid(to.light, to.frame, to.shadowBoxes.boxes, view.light.softness * to.meanRadius);
     to.depthMap = castsShadows && to.hasMetaballs ? depthMapGrid(to.light, view, to.skin, to.settings.depthMapTexels)
                                                   : DepthMapGrid{};
     to.meshDepthMap = castsShadows && !to.meshes.empty()

@@ -16,6 +16,7 @@
 #include "render/prepare/light_space.h"
 #include "render/prepare/metaball_scene.h"
 #include "render/prepare/screen_lines.h"
+#include "render/prepare/shadow_boxes.h"
 #include "render/prepare/skin.h"
 #include "render/prepare/tiles.h"
 
@@ -57,7 +58,8 @@ struct PreparedView {
 
     LightBasis light;
     LightGrid lightGrid;              ///< empty unless spheres cast shadows
-    LightBoxGrid lightBoxes;          ///< without boxes unless boxes cast shadows
+    ShadowBoxes shadowBoxes;          ///< empty unless boxes cast shadows
+    LightBoxGrid lightBoxes;          ///< of shadowBoxes
     bool needsSkyVisibility = false;  ///< whether some term of the shading model needs it
     SkyVisibilityGrid skyGrid;
     SkyVisibilityMap groundSky;

@@ -246,7 +246,7 @@ dvec3 shadeSurface(const Scene& scene, const Hit& hit, const Ray& ray) {
 }  // namespace
 
 Scene::Scene(const render::View& view_, bool bruteForce)
-    : view(view_), balls(ballsOf(view_)), sky(view_), meshes(view_) {
+    : view(view_), balls(ballsOf(view_)), sky(view_), meshes(view_), shadowBoxes(oracle::shadowBoxes(view_.boxObstacles)) {
     if (bruteForce) return;
     std::vector<Extent> extents;
     for (std::size_t k = 0; k < balls.size(); ++k) {
@@ -339,7 +339,7 @@ double lightVisibility(const Scene& scene, const dvec3& point, const dvec3& norm
     }
     for (const render::SphereObstacle& sphere : view.sphereObstacles)
         cover += coverOfSphere(shaded, dvec3(sphere.center), double(sphere.radius));
-    for (const render::BoxObstacle& box : view.boxObstacles) cover += coverOfBox(shaded, box, meanRadius(view));
+    for (const SignedBox& term : scene.shadowBoxes) cover += term.sign * coverOfBox(shaded, term.box, meanRadius(view));
     return std::max(0.0, 1.0 - cover);
 }
 
@@ -358,11 +358,20 @@ dvec3 shade(const Scene& scene, const Hit& hit, const Ray& ray, double screenT) 
     return glm::mix(color, background, 1.0 / (1.0 + 1.0 / fade));  // fade/(1 + fade), also for fade = 0 and infinity
 }
 
-std::uint8_t encodeSrgb(double linear) {
+double ditherThreshold(int x, int y) {
+    // The index m is the Bayer matrix, built from that of 2 x 2 pixels by its recurrence.
+    constexpr std::array<std::array<int, 2>, 2> kQuarter = {{{0, 2}, {3, 1}}};
+    int m = 0;
+    for (int side = 1, scale = 16; side < 8; side *= 2, scale /= 4)
+        m += scale * kQuarter[static_cast<std::size_t>(y / side % 2)][static_cast<std::size_t>(x / side % 2)];
+    return (m + 0.5) / 64.0;
+}
+
+std::uint8_t encodeSrgb(double linear, double threshold) {
     if (!(linear >= 0.0 && linear <= 1.0))
         throw std::domain_error("encodeSrgb: " + std::to_string(linear) + " is not in [0,1]");
     const double encoded = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(std::floor(255.0 * encoded + 0.5));
+    return static_cast<std::uint8_t>(std::min(std::floor(255.0 * encoded + threshold), 255.0));
 }
 
 Picture draw(const render::View& view, render::PictureSize size, int samplesPerAxis) {
@@ -387,7 +396,7 @@ Picture drawWindow(const Scene& scene, render::PictureSize size, const Window& w
                 for (int i = 0; i < samplesPerAxis; ++i)
                     sum += sampleAt(x + (i + 0.5) / samplesPerAxis, y + (j + 0.5) / samplesPerAxis);
             const dvec3 mean = glm::clamp(sum / double(samplesPerAxis * samplesPerAxis), 0.0, 1.0);
-            for (int channel = 0; channel < 3; ++channel) picture.rgb.push_back(encodeSrgb(mean[channel]));
+            for (int channel = 0; channel < 3; ++channel) picture.rgb.push_back(encodeSrgb(mean[channel], ditherThreshold(x, y)));
         }
     }
     return picture;

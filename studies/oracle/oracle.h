@@ -22,6 +22,7 @@
 
 #include "render/picture/view.h"
 #include "studies/oracle/ball_grid.h"
+#include "studies/oracle/box_union.h"
 #include "studies/oracle/intersections.h"
 #include "studies/oracle/mesh_tree.h"
 #include "studies/oracle/sky_visibility.h"
@@ -48,6 +49,7 @@ struct Scene {
     std::optional<BallGrid> grid;  ///< grid of the balls; empty: every ball is tried for every ray
     SkyVisibility sky;
     MeshTree meshes;
+    std::vector<SignedBox> shadowBoxes;
 
     /// The indices of all balls that a ray may cross, and perhaps of some that it misses.
     Indices ballsAlong(const Ray& ray) const;
@@ -102,9 +104,13 @@ double lightVisibility(const Scene& scene, const dvec3& point, const dvec3& norm
 dvec3 shade(const render::View& view, const Hit& hit, const Ray& ray, double screenT);
 dvec3 shade(const Scene& scene, const Hit& hit, const Ray& ray, double screenT);
 
-/// Converts a linear value to 8-bit sRGB by the formula of the standard, rounded to nearest.
+/// Threshold of a pixel of the picture: (m + 1/2)/64 of section 5 of shading_model.h.
+double ditherThreshold(int x, int y);
+
+/// Converts a linear value to 8-bit sRGB by the formula of the standard. What it exceeds a whole step by is rounded up
+/// from 1 - threshold on; by default to the nearest.
 /// @throws std::domain_error if the value is not in [0, 1]
-std::uint8_t encodeSrgb(double linear);
+std::uint8_t encodeSrgb(double linear, double threshold = 0.5);
 
 /// Draws a picture, or a window of it. Each pixel is the mean in linear light of samplesPerAxis^2 samples on a regular
 /// grid, each of which is clamped to [0, 1] before.

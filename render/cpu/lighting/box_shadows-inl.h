@@ -80,9 +80,15 @@ HWY_INLINE std::uint32_t coveringBoxes(const LightBoxes& boxes, std::size_t firs
     return maskBits(hn::And(hn::And(isNearU, isNearV), at(boxes.top) >= bounds.bottom));
 }
 
-/// Adds the coverage by the boxes of one list, in the order of their indices, to what covers some receivers already,
-/// until that is all of the light.
-HWY_INLINE V addListedBoxes(const Occluders& occluders, std::size_t list, const Receivers& at, M where, V coverage) {
+/// What a box adds to the coverage: of one whose coverage is subtracted, less than 0.
+HWY_INLINE V boxTerm(const Occluders& occluders, std::size_t index, const Receivers& at) {
+    const V covered = boxCoverage(occluders.boxes[index], occluders, at);
+    return index < occluders.subtractedBoxCount ? hn::Neg(covered) : covered;
+}
+
+/// Coverage of some receivers by the boxes of one list, in the order of their indices, until that is all of the light:
+/// boxes whose coverage is subtracted come first.
+HWY_INLINE V listedBoxesCoverage(const Occluders& occluders, std::size_t list, const Receivers& at, M where) {
     const D d;
     const LightBoxGrid& grid = *occluders.lightBoxes;
     const ReceiverBounds bounds(at, where);
@@ -90,25 +96,27 @@ HWY_INLINE V addListedBoxes(const Occluders& occluders, std::size_t list, const 
     const V widest = hn::Max(widestPixel, splat(occluders.softness * occluders.meanRadius));
     const V reachU = splat(grid.edgeReach.x) * widest;
     const V reachV = splat(grid.edgeReach.y) * widest;
+    V coverage = splat(0.0F);
     const std::size_t end = grid.begin[list + 1];
     for (std::size_t first = grid.begin[list]; first < end; first += hn::Lanes(d)) {
         const std::size_t count = std::min(end - first, hn::Lanes(d));
         for (std::uint32_t bits = coveringBoxes(grid.boxes, first, bounds, reachU, reachV) & ((1U << count) - 1U);
              bits != 0; bits &= bits - 1) {
             const std::size_t k = first + static_cast<std::size_t>(std::countr_zero(bits));
-            coverage = coverage + boxCoverage(occluders.boxes[grid.boxes.index[k]], occluders, at);
+            coverage = coverage + boxTerm(occluders, grid.boxes.index[k], at);
             if (none(hn::And(where, coverage < splat(1.0F)))) return coverage;
         }
     }
     return coverage;
 }
 
-/// Adds the coverage by boxes to what covers the receivers already.
-HWY_INLINE V addBoxes(const Occluders& occluders, const Receivers& at, V coverage) {
+/// Coverage by all boxes.
+HWY_INLINE V boxesCoverage(const Occluders& occluders, const Receivers& at) {
     const D d;
+    V coverage = splat(0.0F);
     const LightBoxGrid& grid = *occluders.lightBoxes;
     if (grid.isFew()) {
-        for (const BoxObstacle& box : occluders.boxes) coverage = coverage + boxCoverage(box, occluders, at);
+        for (std::size_t k = 0; k < occluders.boxes.size(); ++k) coverage = coverage + boxTerm(occluders, k, at);
         return coverage;
     }
     const V inverse = splat(1.0F / grid.cellSize);
@@ -125,7 +133,7 @@ HWY_INLINE V addBoxes(const Occluders& occluders, const Receivers& at, V coverag
     for (M left = at.isFacing; !none(left);) {
         const std::int32_t one = lists[static_cast<std::size_t>(hn::FindFirstTrue(d, left))];
         const M where = hn::And(left, floatMask(list == splatInt(one)));
-        coverage = hn::IfThenElse(where, addListedBoxes(occluders, static_cast<std::size_t>(one), at, where, coverage),
+        coverage = hn::IfThenElse(where, listedBoxesCoverage(occluders, static_cast<std::size_t>(one), at, where),
                                   coverage);
         left = hn::AndNot(where, left);
     }

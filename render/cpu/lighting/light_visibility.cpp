@@ -188,7 +188,7 @@ V mapCoverage(const DepthMap& map, const Occluders& occluders, const Receivers& 
 V lightVisibilityAt(const Occluders& occluders, const Receivers& at) {
     V coverage = splat(0.0F);
     if (occluders.spheres != nullptr) coverage = coverage + spheresCoverage(*occluders.spheres, at, occluders.softness);
-    if (occluders.lightBoxes != nullptr) coverage = addBoxes(occluders, at, coverage);
+    if (occluders.lightBoxes != nullptr) coverage = coverage + boxesCoverage(occluders, at);
     if (occluders.metaballs != nullptr) coverage = coverage + mapCoverage(*occluders.metaballs, occluders, at, false);
     if (occluders.meshes != nullptr) coverage = coverage + mapCoverage(*occluders.meshes, occluders, at, true);
     return hn::IfThenElseZero(at.isFacing, hn::Max(splat(1.0F) - coverage, splat(0.0F)));

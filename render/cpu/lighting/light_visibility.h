@@ -23,6 +23,7 @@ struct Occluders {
     const DepthMap* meshes = nullptr;
     const LightBoxGrid* lightBoxes = nullptr;
     std::span<const BoxObstacle> boxes;           ///< in world coordinates; what lightBoxes lists
+    std::size_t subtractedBoxCount = 0;           ///< number of boxes, the first ones, whose coverage is subtracted
     float softness = 0.0F;                        ///< softness of the shadows' edges, as in Light
     float meanRadius = 0.0F;                      ///< mean radius of the particles, m
     const SkyVisibilityGrid* sky = nullptr;       ///< sky visibility, null without ambient occlusion

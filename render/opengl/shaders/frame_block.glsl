@@ -31,6 +31,7 @@
 //   metaballs:           threshold of the field, spacing of its samples on a ray (m), smallest radius (m), and how near
 //                        the field may come to the threshold between samples before it is sampled more densely
 //   counts:              index of the first sphere that is no particle, squarings of the highlight, boxes
+//                        that cast shadows
 #define FRAME_FIELDS(X) \
     X(image) X(right) X(up) X(forward) X(toLight) X(lightU) X(lightV) X(lightColor) X(sky) X(skyBelow) \
     X(surface) X(body) X(surroundingsTop) X(surroundingsHorizon) X(surroundingsBottom) X(backgroundTop) \

@@ -56,7 +56,8 @@ ivec2 boxList(vec2 at, float pixelWidth) {
 }
 #endif
 
-// Coverage by boxes, whose outlines seen from the light are hexagons (box_shadows-inl.h derives the distance).
+// Coverage by boxes, of which those come first whose coverage is subtracted. Their outlines seen from the light are hexagons
+// (box_shadows-inl.h derives the distance).
 float boxCoverage(vec3 position, vec3 at, float pixelWidth, bool isFacing) {
 #ifdef BOX_CELLS
     ivec2 list = boxList(at.xy, pixelWidth);
@@ -73,7 +74,8 @@ float boxCoverage(vec3 position, vec3 at, float pixelWidth, bool isFacing) {
         if (lowAndTop.w < at.z) continue;
 #endif
         vec3 low = lowAndTop.xyz;
-        vec3 high = texelFetch(boxCasters, 2 * k + 1).xyz;
+        vec4 highAndSign = texelFetch(boxCasters, 2 * k + 1);
+        vec3 high = highAndSign.xyz;
         vec3 first = (low - position) * inverse;
         vec3 second = (high - position) * inverse;
         vec3 near = min(first, second);
@@ -93,7 +95,7 @@ float boxCoverage(vec3 position, vec3 at, float pixelWidth, bool isFacing) {
 #ifdef SOFT
         width = max(width, toLight.w * min(lightU.w, 0.5 * exit));
 #endif
-        if (exit > tolerance) coverage += shadowEdge(inside / max(width, tolerance));
+        if (exit > tolerance) coverage += highAndSign.w * shadowEdge(inside / max(width, tolerance));
     }
     return coverage;
 }

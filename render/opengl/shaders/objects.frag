@@ -18,6 +18,7 @@ uniform isamplerBuffer lineItems;
 uniform samplerBuffer casters;           // spheres that cast shadows: u, v, height, radius (m)
 uniform isamplerBuffer casterBegins;
 uniform samplerBuffer boxCasters;        // two texels a box: low corner and greatest height in light space, high corner
+                                         // and 1, or -1 if its coverage is subtracted
 uniform isamplerBuffer boxCasterBegins;  // the last list has all boxes
 uniform samplerBuffer groundSky;
 uniform samplerBuffer skyGrid;
@@ -175,7 +176,7 @@ void main() {
     vec4 over = lineCoverage(hits, middle + sampleOffset.xy);
     color = min(color * (1.0 - over.w) + over.rgb, 1.0);
 #endif
-    writeColor(color);
+    writeColor(color, place);
 #if defined(METABALLS) && SAMPLES == 4 && !defined(MARKED)
     // Pixels that a silhouette crosses are marked by alpha 0, to be drawn again.
     if (isAtSilhouette(place, pixelSurface.depth)) pixel.a = 0.0;
