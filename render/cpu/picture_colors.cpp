@@ -10,6 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include "render/cpu/metaballs/ray_layout.h"
+#include "render/cpu/raster/box_outlines.h"
 
 namespace render {
 
@@ -141,6 +142,22 @@ class TileColors {
         }
     }
 
+    /// The shares of a pixel that the things its samples hit have: their shares of the samples or, at the outline of a
+    /// box, the exact ones.
+    std::array<float, 4> sharesOf(std::span<const EdgeHit> hits, glm::vec2 corner, std::uint8_t pixel) const {
+        std::array<float, 4> shares{};
+        std::array<SampledHit, 2> sampled;
+        for (std::size_t k = 0; k < hits.size(); ++k) {
+            const int count = std::popcount(hits[k].sampleMask);
+            shares[k] = 0.25F * static_cast<float>(count);
+            if (k < 2) sampled[k] = {hits[k].hitId, count};
+        }
+        if (hits.size() != 2) return shares;
+        const auto exact = shareOfFirst(job_.geometry.frame, job_.geometry.boxes, sampled, pixelMiddle(corner, pixel));
+        if (exact) shares = {*exact, 1.0F - *exact};
+        return shares;
+    }
+
     /// Colors some of the pixels that an outline crosses.
     /// @param hits  begins with the hits of these pixels
     /// @return the number of their hits
@@ -165,15 +182,15 @@ class TileColors {
         for (const EdgePixel& edge : pixels) {
             glm::vec3 sum(0.0F);
             float alpha = 0.0F;
-            for (const std::size_t last = k + edge.hitCount; k < last; ++k) {
-                const float count = static_cast<float>(std::popcount(hits[k].sampleMask));
-                sum += count * glm::vec3(colors.rgb[0][k], colors.rgb[1][k], colors.rgb[2][k]);
-                if (hasAlpha_) alpha += count * alphaOf(job_, points, k);
+            const std::array<float, 4> shares = sharesOf(hits.subspan(k, edge.hitCount), corner, edge.pixel);
+            for (std::size_t hit = 0; hit < edge.hitCount; ++hit, ++k) {
+                sum += shares[hit] * glm::vec3(colors.rgb[0][k], colors.rgb[1][k], colors.rgb[2][k]);
+                if (hasAlpha_) alpha += shares[hit] * alphaOf(job_, points, k);
             }
             const std::size_t rank = kZCurveTables.rank[edge.pixel];
             for (std::size_t channel = 0; channel < 3; ++channel)
-                colors_.rgb[channel][rank] = 0.25F * sum[static_cast<int>(channel)];
-            if (hasAlpha_) alpha_[rank] = 0.25F * alpha;
+                colors_.rgb[channel][rank] = sum[static_cast<int>(channel)];
+            if (hasAlpha_) alpha_[rank] = alpha;
         }
         return k;
     }

@@ -124,7 +124,16 @@ SampleHits hitsOf(vec2 middle) {
     return hits;
 }
 
+#ifdef BOXES
+#include "box_outlines.glsl"
+#endif
+
 vec3 colorOfSamples(SampleHits hits, vec2 middle) {
+#ifdef BOXES
+    vec4 shares = sampleShares(hits.id, middle);
+#else
+    vec4 shares = vec4(0.25);
+#endif
     vec3 sum = vec3(0.0);
     vec4 left = vec4(1.0);  // 1 for each sample that has no color yet
     do {
@@ -132,10 +141,10 @@ vec3 colorOfSamples(SampleHits hits, vec2 middle) {
         vec4 same = left * vec4(equal(hits.id, ivec4(id)));
         float count = dot(same, vec4(1.0));
         vec2 offset = vec2(dot(same, kOffsetX), dot(same, kOffsetY)) / count;
-        sum += count * clamp(colorOf(id, middle + offset), 0.0, 1.0);
+        sum += dot(same, shares) * clamp(colorOf(id, middle + offset), 0.0, 1.0);
         left -= same;
     } while (dot(left, vec4(1.0)) > 0.0);
-    return 0.25 * sum;
+    return sum;
 }
 #endif
 
