@@ -19,7 +19,8 @@
 //   transmitted     = translucency skyVisibility(-n) (skyLight(-n) + light.color (0.25 + max(0, -n.l)))
 //   body            = mix(albedo, albedo^2, absorption (1 - skyVisibility(-n)))
 //   fresnel(c)      = f + (1 - f) (1 - max(0, c))^5  with  f = mix(specular, albedo, metal)
-//   highlight       = light.color lightVisibility fresnel(v.h) (g + 8)/8 max(0, n.h)^g  with  g = 2^glossExponent;
+//   highlight       = light.color lightVisibility (1 - occlusion (1 - skyVisibility(r))) fresnel(v.h)
+//                     (g + 8)/8 max(0, n.h)^g  with  g = 2^glossExponent;
 //                     0 where n.l <= 0, and where both specular and metal are 0
 //   mirrored        = reflection fresnel(n.v) skyVisibility(r) surroundings(r)
 //   surroundings(d) = mix(horizon, top, d.y (2 - d.y)) for d.y > 0, else mix(horizon, bottom, min(1, -4 d.y))
@@ -30,7 +31,9 @@
 //
 // Full roughness is the Lommel-Seeliger law of dust and of the moon, cosine / (n.l + n.v), with 0.2 added against the
 // pole at grazing angles and 2.2 to leave a surface seen and lit head-on as bright as it was. fresnel is Schlick's
-// approximation (1994), highlight the Blinn-Phong lobe normalized to reflect the same energy at any exponent. The
+// approximation (1994), highlight the Blinn-Phong lobe normalized to reflect the same energy at any exponent. Like all
+// that is mirrored, it is seen by rays in many directions around r, some of which meet the neighbors: without that
+// factor, the narrow crease where two bodies touch, whose normals sweep over all directions, shows a pale line. The
 // shoulder compresses what is too bright to display: q has the value 0.7 and the slope 1 at p = 0.7 and stays below 1,
 // and the mix turns very bright colors white.
 // 2. Background and ground

@@ -235,8 +235,9 @@ dvec3 shadeSurface(const Scene& scene, const Hit& hit, const Ray& ray) {
     const dvec3 body =
         glm::mix(hit.albedo, hit.albedo * hit.albedo, double(surface.absorption) * (1.0 - visibilityToward(sky, -n)));
     dvec3 color = (1.0 - double(surface.metal)) * body * (ambient + diffuse + transmitted);
-    if (isParticle && isLit) color += visible * light * highlight(view, hit, toEye, toLight);
     const dvec3 mirror = glm::reflect(ray.direction, n);
+    const double unhidden = 1.0 - double(view.ambient.occlusion) * (1.0 - visibilityToward(sky, mirror));
+    if (isParticle && isLit) color += visible * unhidden * light * highlight(view, hit, toEye, toLight);
     color += double(surface.reflection) * fresnel(view, hit.albedo, glm::dot(n, toEye)) *
              visibilityToward(sky, mirror) * surroundings(view, mirror);
     color += double(surface.glow) * hit.albedo * hit.albedo;

@@ -201,7 +201,9 @@ Vec3 surfaceColor(const Shading& shading, const ShadingInputs& at) {
     if (!none(at.isParticle > splat(0.0F))) {
         if (surface.specular > 0.0F || surface.metal > 0.0F) {
             const M isFacing = dot(at.normal, splat(shading.light.toLight)) > splat(0.0F);
-            const V share = hn::IfThenElseZero(isFacing, at.isParticle * at.lightVisibility);
+            V share = hn::IfThenElseZero(isFacing, at.isParticle * at.lightVisibility);
+            if (shading.ambient.occlusion > 0.0F)
+                share = share * (splat(1.0F) - splat(shading.ambient.occlusion) * (splat(1.0F) - at.skyMirrored));
             color = color + splat(shading.light.color) * highlight(shading, at) * share;
         }
         if (surface.reflection > 0.0F) color = color + mirrored(shading, at) * at.isParticle;

@@ -31,6 +31,9 @@ vec3 highlight(Point at) {
     float peak = max(dot(at.normal, halfway), 0.0);
     for (int squaring = 0; squaring < int(counts.y); ++squaring) peak *= peak;
     float share = dot(at.normal, toLight.xyz) > 0.0 ? at.isParticle * at.light : 0.0;
+#ifdef OCCLUSION
+    share *= 1.0 - sky.w * (1.0 - at.sky.z);
+#endif
     return lightColor.rgb * fresnel(at.albedo, dot(at.toEye, halfway)) * (body.w * peak * share);
 }
 #endif
