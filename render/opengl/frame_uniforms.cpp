@@ -29,9 +29,9 @@ void setLook(const View& view, FrameUniforms& to) {
     to.skyBelow = {view.ambient.ground, 0.0F};
     to.surface = {surface.specular, surface.reflection, surface.metal, surface.roughness};
     to.body = {surface.translucency, surface.absorption, surface.glow, highlightNorm(surface.glossExponent)};
-    to.surroundingsTop = {view.surroundings.top, 0.0F};
-    to.surroundingsHorizon = {view.surroundings.horizon, 0.0F};
-    to.surroundingsBottom = {view.surroundings.bottom, 0.0F};
+    to.surroundingsTop = {view.surroundings.top, view.light.rim.r};
+    to.surroundingsHorizon = {view.surroundings.horizon, view.light.rim.g};
+    to.surroundingsBottom = {view.surroundings.bottom, view.light.rim.b};
     to.backgroundTop = {view.background.top, 0.0F};
     to.backgroundBottom = {view.background.bottom, 0.0F};
     const Ground ground = view.ground.value_or(Ground{});

@@ -40,6 +40,7 @@ void addSurface(const PreparedView& prepared, Defines& defines) {
     addIf(surface.specular > 0.0F || surface.metal > 0.0F, "HIGHLIGHT", defines);
     addIf(surface.metal > 0.0F, "METAL", defines);
     addIf(surface.reflection > 0.0F, "REFLECTION", defines);
+    addIf(prepared.view->light.rim != glm::vec3(0.0F), "RIM", defines);
     addIf(surface.roughness > 0.0F, "ROUGHNESS", defines);
     addIf(surface.translucency > 0.0F, "TRANSLUCENCY", defines);
     addIf(surface.absorption > 0.0F, "ABSORPTION", defines);

@@ -23,8 +23,11 @@
 //                     (g + 8)/8 max(0, n.h)^g  with  g = 2^glossExponent;
 //                     0 where n.l <= 0, and where both specular and metal are 0
 //   mirrored        = reflection fresnel(n.v) skyVisibility(r) surroundings(r)
+//   rim             = light.rim (1 - max(0, n.v))^4 (0.5 + 0.5 n.y) (1 - occlusion (1 - skyVisibility(n)));
+//                     0 on obstacles and the ground
 //   surroundings(d) = mix(horizon, top, d.y (2 - d.y)) for d.y > 0, else mix(horizon, bottom, min(1, -4 d.y))
-//   color           = (1 - metal) body (ambient + diffuse + transmitted) + highlight + mirrored + glow albedo^2
+//   color           = (1 - metal) body (ambient + diffuse + transmitted) + highlight + rim + mirrored
+//                     + glow albedo^2
 //   displayed       = shoulder(exposure color), or color where exposure is 0
 //   shoulder(c)     = c where its largest channel p <= 0.7, else mix(c q/p, q, 1 - 1/(1 + 0.06 (p - q)))
 //                     with q = 1 - 0.09/(p - 0.4)
@@ -36,6 +39,10 @@
 // factor, the narrow crease where two bodies touch, whose normals sweep over all directions, shows a pale line. The
 // shoulder compresses what is too bright to display: q has the value 0.7 and the slope 1 at p = 0.7 and stays below 1,
 // and the mix turns very bright colors white.
+//
+// rim is what lighting artists call a rim light: it stands behind and above what the camera looks at, whatever side the
+// camera is on, and its light is seen where the surface turns away from the eye.
+//
 // 2. Background and ground
 //
 // The background is mix(bottom, top, t), where t runs from 0 at the bottom edge of the picture to 1 at the top edge.
@@ -104,6 +111,7 @@ namespace render {
 struct Light {
     glm::vec3 toLight{0.4F, 0.8F, 0.4472136F};  ///< unit length
     glm::vec3 color{1.0F};
+    glm::vec3 rim{0.0F};    ///< color of a light behind the particles that brightens their outlines; 0: none
     bool shadows = true;    ///< whether the light casts shadows; without them lightVisibility is 1
     float softness = 0.0F;  ///< about the width of shadows' edges in particle radii, 0 to 1: S in section 4
 };

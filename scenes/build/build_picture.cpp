@@ -69,6 +69,7 @@ void readView(const Section& section, render::View& view) {
     const auto number = [&](std::string_view name) { return toFloat(section.number(name)); };
     const auto color = [&](std::string_view name) { return toFloat(section.vector(name)); };
     view.light.color = color("light_color");
+    view.light.rim = color("rim_light");
     view.light.shadows = section.boolean("shadows");
     view.light.softness = number("shadow_softness");
     view.ambient = {color("ambient_sky"), color("ambient_ground"), number("occlusion")};

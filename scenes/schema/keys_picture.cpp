@@ -54,6 +54,8 @@ std::vector<Key> lightKeys() {
         key("light_direction", Type::vec3, "", "direction toward the light, of any length")
             .defaultsTo("[0.4, 0.8, 0.45]"),
         light("light_color", "color of the light").defaultsTo("[1, 1, 1]"),
+        light("rim_light", "color of a light behind the particles that brightens their outlines; 0: none")
+            .defaultsTo("[0, 0, 0]"),
         key("shadows", Type::boolean, "", "whether the light casts shadows").defaultsTo("true"),
         light("ambient_sky", "ambient light from above").defaultsTo("[0.35, 0.35, 0.35]"),
         light("ambient_ground", "ambient light from below").defaultsTo("[0.2, 0.2, 0.2]"),

@@ -238,6 +238,10 @@ dvec3 shadeSurface(const Scene& scene, const Hit& hit, const Ray& ray) {
     const dvec3 mirror = glm::reflect(ray.direction, n);
     const double unhidden = 1.0 - double(view.ambient.occlusion) * (1.0 - visibilityToward(sky, mirror));
     if (isParticle && isLit) color += visible * unhidden * light * highlight(view, hit, toEye, toLight);
+    const double open = 1.0 - double(view.ambient.occlusion) * (1.0 - visibilityToward(sky, n));
+    if (isParticle)
+        color +=
+            std::pow(1.0 - std::max(0.0, glm::dot(n, toEye)), 4.0) * (0.5 + 0.5 * n.y) * open * dvec3(view.light.rim);
     color += double(surface.reflection) * fresnel(view, hit.albedo, glm::dot(n, toEye)) *
              visibilityToward(sky, mirror) * surroundings(view, mirror);
     color += double(surface.glow) * hit.albedo * hit.albedo;

@@ -76,6 +76,7 @@ std::vector<Term> terms() {
         {[](View& v) { v.surface.translucency = 0.1F; }, {"PARTICLE_SKY", "TRANSLUCENCY"}},
         {[](View& v) { v.surface.absorption = 0.1F; }, {"ABSORPTION", "PARTICLE_SKY"}},
         {[](View& v) { v.surface.glow = 0.1F; }, {"GLOW"}},
+        {[](View& v) { v.light.rim.r = 0.1F; }, {"RIM"}},
         {[](View& v) { v.exposure = 1.0F; }, {"EXPOSURE"}},
         {[](View& v) {
              v.edges.push_back({{-1.0F, 1.0F, 0.0F}, {1.0F, 1.0F, 0.0F}});
@@ -162,8 +163,8 @@ TEST_CASE("Terms of the whole picture, and tiles that show less, have their own 
     CHECK(definesOf(view, TileClass::background) == render::Defines{"PERSPECTIVE"});
     CHECK(definesOf(view, TileClass::openGround) == render::Defines{"EXPOSURE", "GROUND", "PERSPECTIVE", "SOFT"});
     CHECK(definesOf(view, TileClass::occludedGround) ==
-          render::Defines{"BOX_SHADOWS", "EXPOSURE", "GROUND", "GROUND_OCCLUSION", "MESH_SHADOWS", "OCCLUSION",
-                          "PERSPECTIVE", "SHADOWS", "SOFT", "SPHERE_SHADOWS"});
+          render::Defines{"BOX_SHADOWS", "EXPOSURE", "GROUND", "GROUND_OCCLUSION", "MESH_SHADOWS",
+                          "OCCLUSION", "PERSPECTIVE", "SHADOWS", "SOFT", "SPHERE_SHADOWS"});
     const render::Defines objects = definesOf(view, TileClass::objects);
     for (const char* flat : {"BOXES", "LINES", "MESHES"})
         CHECK(std::find(objects.begin(), objects.end(), flat) == objects.end());

@@ -36,6 +36,10 @@ std::vector<Term> terms() {
             {"translucency", [](render::View& v) { v.surface.translucency = 0.6F; }, true},
             {"absorption", [](render::View& v) { v.surface.absorption = 0.8F; }, true},
             {"glow", [](render::View& v) { v.surface.glow = 0.5F; }},
+            {"rim light",
+             [](render::View& v) {
+                 v.light.rim = {0.9F, 0.7F, 0.4F};
+             }},
             {"exposure", [](render::View& v) { v.exposure = 1.6F; }}};
 }
 

@@ -153,6 +153,17 @@ Vec3 mirrored(const Shading& shading, const ShadingInputs& at) {
     return reflected * (splat(shading.surface.reflection) * at.skyMirrored);
 }
 
+/// Light from behind that brightens the outlines.
+Vec3 rim(const Shading& shading, const ShadingInputs& at) {
+    const V one = splat(1.0F);
+    const V away = one - positive(dot(at.normal, at.toEye));
+    const V square = away * away;
+    V strength = square * square * (splat(0.5F) + splat(0.5F) * at.normal.y);
+    if (shading.ambient.occlusion > 0.0F)
+        strength = strength * (one - splat(shading.ambient.occlusion) * (one - at.skyAlong));
+    return splat(shading.light.rim) * strength;
+}
+
 /// The body's color times ambient, diffuse and transmitted light.
 Vec3 bodyColor(const Shading& shading, const ShadingInputs& at) {
     const Surface& surface = shading.surface;
@@ -206,6 +217,7 @@ Vec3 surfaceColor(const Shading& shading, const ShadingInputs& at) {
                 share = share * (splat(1.0F) - splat(shading.ambient.occlusion) * (splat(1.0F) - at.skyMirrored));
             color = color + splat(shading.light.color) * highlight(shading, at) * share;
         }
+        if (shading.light.rim != glm::vec3(0.0F)) color = color + rim(shading, at) * at.isParticle;
         if (surface.reflection > 0.0F) color = color + mirrored(shading, at) * at.isParticle;
         if (surface.glow > 0.0F) color = color + at.albedo * at.albedo * (at.isParticle * splat(surface.glow));
     }

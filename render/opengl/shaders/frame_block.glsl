@@ -11,7 +11,7 @@
 //   skyBelow:            ambient light from below
 //   surface:             specular, reflection, metal, roughness
 //   body:                translucency, absorption, glow, normalization (g + 8) / 8 of the highlight
-//   surroundingsTop:     colors that mirrors reflect, as the next two
+//   surroundingsTop:     colors that mirrors reflect, as the next two; w of the three: color of the rim light
 //   surroundingsHorizon:
 //   surroundingsBottom:
 //   backgroundTop:       colors of the gradient, as the next

@@ -51,6 +51,18 @@ vec3 mirrored(Point at) {
 }
 #endif
 
+#ifdef RIM
+vec3 rim(Point at) {
+    float away = 1.0 - max(dot(at.normal, at.toEye), 0.0);
+    float square = away * away;
+    float strength = at.isParticle * square * square * (0.5 + 0.5 * at.normal.y);
+#ifdef OCCLUSION
+    strength *= 1.0 - sky.w * (1.0 - at.sky.x);
+#endif
+    return strength * vec3(surroundingsTop.w, surroundingsHorizon.w, surroundingsBottom.w);
+}
+#endif
+
 vec3 bodyColor(Point at) {
     float facing = dot(at.normal, toLight.xyz);
     float cosine = max(facing, 0.0);
@@ -90,6 +102,9 @@ vec3 surfaceColor(Point at) {
     vec3 color = bodyColor(at);
 #ifdef HIGHLIGHT
     color += highlight(at);
+#endif
+#ifdef RIM
+    color += rim(at);
 #endif
 #ifdef REFLECTION
     color += mirrored(at);
