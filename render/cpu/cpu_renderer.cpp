@@ -125,6 +125,7 @@ Occluders CpuRenderer::occludersOf(const PreparedView& view) const {
     occluders.subtractedBoxCount = view.shadowBoxes.subtractedCount;
     occluders.softness = view.view->light.softness;
     occluders.meanRadius = view.meanRadius;
+    if (!view.glowGrid.empty()) occluders.glow = &view.glowGrid;
     if (view.hasOcclusion()) {
         occluders.sky = &view.skyGrid;
         occluders.groundSky = &view.groundSky;

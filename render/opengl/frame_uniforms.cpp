@@ -72,9 +72,13 @@ FrameUniforms frameUniforms(const PreparedView& prepared, glm::vec2 offset) {
     const SkyVisibilityGrid& sky = prepared.skyGrid;
     to.skyCells = {sky.origin - prepared.frame.eye, 1.0F / sky.side};
     to.skyCellCount = glm::vec4(sky.cells, 0);
+    const GlowGrid& glow = prepared.glowGrid;
+    to.glowCells = {glow.origin - prepared.frame.eye, 1.0F / glow.side};
+    to.glowCellCount = glm::vec4(glow.cells, 0);
     to.sampleOffset = {offset, 0.0F, 0.0F};
     if (prepared.hasMetaballs) setMetaballs(prepared, offset, to);
-    to.counts = glm::vec4(prepared.drawn.firstObstacle, view.surface.glossExponent, prepared.shadowBoxes.boxes.size(), 0.0F);
+    to.counts =
+        glm::vec4(prepared.drawn.firstObstacle, view.surface.glossExponent, prepared.shadowBoxes.boxes.size(), 0.0F);
     return to;
 }
 

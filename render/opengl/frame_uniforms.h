@@ -16,9 +16,9 @@ struct FrameUniforms {
     glm::vec4 surroundingsTop, surroundingsHorizon, surroundingsBottom;
     glm::vec4 backgroundTop, backgroundBottom;
     glm::vec4 groundColor, groundCenter;
-    glm::vec4 lightCells, boxCells, skyCells, depthMapGrid, depthMapSize;
+    glm::vec4 lightCells, boxCells, skyCells, glowCells, depthMapGrid, depthMapSize;
     glm::vec4 sampleOffset;
-    glm::vec4 lightCellCount, skyCellCount, metaballs, counts;
+    glm::vec4 lightCellCount, skyCellCount, glowCellCount, metaballs, counts;
 };
 
 /// @param offset  of a single sample from the pixel's middle, pixels; the depth map is moved by as much of its texels

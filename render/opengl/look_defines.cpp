@@ -30,6 +30,7 @@ void addLight(const PreparedView& prepared, TileClass kind, Defines& defines) {
     addIf(view.light.softness > 0.0F, "SOFT", defines);
     const bool isOccluded = prepared.hasOcclusion() && kind != TileClass::openGround;
     addIf(isOccluded, "OCCLUSION", defines);
+    addIf(!prepared.glowGrid.empty() && kind != TileClass::openGround, "GLOW_LIGHT", defines);
     addIf(isOccluded && view.ground, "GROUND_OCCLUSION", defines);
 }
 

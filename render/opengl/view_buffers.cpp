@@ -54,6 +54,7 @@ ViewBuffers::ViewBuffers(const Gl& gl)
       boxCasterBegins_(gl, GL_R32I),
       groundSky_(gl, GL_R32F),
       skyGrid_(gl, GL_R32F),
+      glowGrid_(gl, GL_RGBA32F),
       tiles_{TextureBuffer(gl, GL_R32I), TextureBuffer(gl, GL_R32I), TextureBuffer(gl, GL_R32I),
              TextureBuffer(gl, GL_R32I), TextureBuffer(gl, GL_R32I)} {}
 
@@ -142,6 +143,7 @@ void ViewBuffers::uploadSky(const PreparedView& view) {
         for (const std::vector<float>& side : view.skyGrid.values)
             values.insert(values.end(), side.begin(), side.end());
     uploadList(skyGrid_, values, "the grid of the sky visibility");
+    uploadList(glowGrid_, view.glowGrid.values, "the grid of the particles' light");
 }
 
 std::vector<TextureBinding> ViewBuffers::bindings() const {
@@ -164,7 +166,8 @@ std::vector<TextureBinding> ViewBuffers::bindings() const {
             of("boxCasters", boxCasters_),
             of("boxCasterBegins", boxCasterBegins_),
             of("groundSky", groundSky_),
-            of("skyGrid", skyGrid_)};
+            of("skyGrid", skyGrid_),
+            of("glowGrid", glowGrid_)};
 }
 
 }  // namespace render

@@ -51,7 +51,7 @@ class ViewBuffers {
     TextureBuffer spheres_, sphereAttributes_, sphereBegins_, sphereItems_, tileSpheres_;
     TextureBuffer boxes_, boxBegins_, tileBoxes_, lines_, lineBegins_, lineItems_;
     TextureBuffer casters_, casterBegins_, boxCasters_, boxCasterBegins_;
-    TextureBuffer groundSky_, skyGrid_;
+    TextureBuffer groundSky_, skyGrid_, glowGrid_;
     std::array<TextureBuffer, kTileClassCount> tiles_;
     std::array<std::vector<std::int32_t>, kTileClassCount> tileIndices_;
 };

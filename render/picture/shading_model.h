@@ -26,8 +26,8 @@
 //   rim             = light.rim (1 - max(0, n.v))^4 (0.5 + 0.5 n.y) (1 - occlusion (1 - skyVisibility(n)));
 //                     0 on obstacles and the ground
 //   surroundings(d) = mix(horizon, top, d.y (2 - d.y)) for d.y > 0, else mix(horizon, bottom, min(1, -4 d.y))
-//   color           = (1 - metal) body (ambient + diffuse + transmitted) + highlight + rim + mirrored
-//                     + glow albedo^2
+//   color           = (1 - metal) body (ambient + diffuse + transmitted + glowLight(n)) + highlight + rim + mirrored
+//                     + glow albedo^2                                               glowLight: section 3
 //   displayed       = shoulder(exposure color), or color where exposure is 0
 //   shoulder(c)     = c where its largest channel p <= 0.7, else mix(c q/p, q, 1 - 1/(1 + 0.06 (p - q)))
 //                     with q = 1 - 0.09/(p - 0.4)
@@ -49,7 +49,7 @@
 // The ground's color is mixed into the background by fade/(1 + fade), where fade = (d/fadeDistance)^4 and d is the
 // distance of the point from the ground's center.
 //
-// 3. Sky visibility (ambient occlusion)
+// 3. Sky visibility (ambient occlusion) and the light of glowing particles
 //
 // At a point x, in the direction of a unit vector d,
 //   skyVisibility(d) = sum over the axes a = x, y, z of d_a^2 O(x, a, sign of d_a).
@@ -64,6 +64,19 @@
 // and O(x) is interpolated trilinearly between the centers of the cubes around x + 0.75 s e, a little ahead so that a
 // surface does not hide the sky from itself. A particle has the values of its center all over, the surface of metaballs
 // the mean of the balls' values weighted by their kernels, obstacles and the ground those of the point itself.
+//
+// Particles with glow light what is around them. A particle of radius a has in the direction of a unit vector u the
+// intensity glow albedo^2 a^2 skyVisibility(u), with the values O of its center: those inside of a heap emit little.
+// Space is divided into cubes of side t = 2 s, with corners at multiples of t. Along each axis, in both directions, the
+// intensities are spread over the eight cubes whose centers surround the particle, by trilinear weights. t is doubled
+// until at most 1024 cubes emit, and the box around these, six cubes wider on each side, has at most 2^17. Let J(u)
+// be the sum over the axes of u_a^2 J(axis a, sign of u_a). A surface in the middle of a cube that faces in the
+// direction e of one of its six sides receives
+//   I(e) = sum over the cubes that emit of J(u) max(0, -u.e) (1 - d^2/D^2)^2/(d^2 + t^2/4),
+// where d and u are distance and direction from the middle of the cube that emits, 0 < d < D = 6 t. This is the inverse
+// square of the distance, made finite where it is nothing but a cube, and 0 beyond D. Then, I interpolated trilinearly,
+//   glowLight(n) = sum over the axes of n_a^2 I(axis a, sign of n_a).
+// Obstacles do not stop this light.
 //
 // 4. Light visibility (shadows)
 //

@@ -44,9 +44,14 @@ Rectangle shadowBounds(const PreparedView& prepared) {
     return bounds;
 }
 
-/// Bounds of the map of the ground's sky visibility, x and z relative to the eye.
-Rectangle skyBounds(const PreparedView& prepared) {
+/// Bounds of the ground that particles occlude or light, x and z relative to the eye.
+Rectangle particleBounds(const PreparedView& prepared) {
     Rectangle bounds;
+    if (const GlowGrid& grid = prepared.glowGrid; !grid.empty()) {
+        const glm::vec3 low = grid.origin - prepared.frame.eye;
+        const glm::vec3 high = low + grid.side * glm::vec3(grid.cells);
+        bounds.add({low.x, low.z}, {high.x, high.z});
+    }
     if (!prepared.hasOcclusion()) return bounds;
     const SkyVisibilityMap& map = prepared.groundSky;
     const glm::vec2 low = map.origin - glm::vec2(prepared.frame.eye.x, prepared.frame.eye.z);
@@ -70,10 +75,10 @@ Corner cornerAt(const CameraFrame& frame, float height, int x, int y) {
 }
 
 /// The kind of a tile with these corners where nothing stands before the ground.
-/// @param shadows  bounds of all shadows on the light's plane
-/// @param sky      bounds of the map of the ground's sky visibility
+/// @param shadows    bounds of all shadows on the light's plane
+/// @param particles  bounds of the ground that particles occlude or light
 TileKind kindOf(const std::array<Corner, 4>& corners, const LightBasis& light, const Rectangle& shadows,
-                const Rectangle& sky) {
+                const Rectangle& particles) {
     const auto groundCorners = std::ranges::count_if(corners, [](const Corner& corner) { return corner.has_value(); });
     if (groundCorners == 0) return TileKind::background;
     if (groundCorners < 4) return TileKind::mixed;
@@ -85,7 +90,7 @@ TileKind kindOf(const std::array<Corner, 4>& corners, const LightBasis& light, c
         onLightPlane.add(glm::vec2(light.toLightSpace(*corner)));
         onGround.add({corner->x, corner->z});
     }
-    const bool isOccluded = overlap(onLightPlane, shadows, slack) || overlap(onGround, sky, slack);
+    const bool isOccluded = overlap(onLightPlane, shadows, slack) || overlap(onGround, particles, slack);
     return isOccluded ? TileKind::occludedGround : TileKind::openGround;
 }
 
@@ -95,7 +100,7 @@ std::vector<TileKind> groundTiles(const PreparedView& view) {
     const CameraFrame& frame = view.frame;
     const float height = *view.groundHeight();
     const Rectangle shadows = shadowBounds(view);
-    const Rectangle sky = skyBounds(view);
+    const Rectangle particles = particleBounds(view);
     const int columns = tilesAlong(frame.width);
     const int rows = tilesAlong(frame.height);
     std::vector<Corner> corners;
@@ -109,7 +114,7 @@ std::vector<TileKind> groundTiles(const PreparedView& view) {
             const auto first = static_cast<std::size_t>(row * (columns + 1) + column);
             const std::size_t below = first + static_cast<std::size_t>(columns) + 1;
             tiles.push_back(kindOf({corners[first], corners[first + 1], corners[below], corners[below + 1]}, view.light,
-                                   shadows, sky));
+                                   shadows, particles));
         }
     }
     return tiles;

@@ -24,9 +24,11 @@ bool needsSkyVisibility(const View& view) {
 void findSkyVisibility(PreparedView& to) {
     const View& view = *to.view;
     to.needsSkyVisibility = to.settings.isShaded && needsSkyVisibility(view);
-    to.skyGrid = to.needsSkyVisibility ? skyVisibilityGrid(view.particles, std::move(to.skyGrid)) : SkyVisibilityGrid{};
-    to.particleSky =
-        to.needsSkyVisibility ? particleSkyVisibility(view.particles, to.skyGrid) : std::vector<SkyVisibility>{};
+    const bool isGlowing = to.settings.isShaded && view.surface.glow > 0.0F;
+    const bool needsGrid = to.needsSkyVisibility || isGlowing;
+    to.skyGrid = needsGrid ? skyVisibilityGrid(view.particles, std::move(to.skyGrid)) : SkyVisibilityGrid{};
+    to.particleSky = needsGrid ? particleSkyVisibility(view.particles, to.skyGrid) : std::vector<SkyVisibility>{};
+    to.glowGrid = isGlowing ? glowGrid(view.particles, view.surface.glow, to.particleSky, to.skyGrid.side) : GlowGrid{};
     to.groundSky = to.needsSkyVisibility && view.ground ? skyVisibilityAtHeight(to.skyGrid, view.ground->height)
                                                         : SkyVisibilityMap{};
 }
@@ -47,8 +49,7 @@ void binForLight(PreparedView& to) {
     const bool castsShadows = to.settings.isShaded && view.light.shadows;
     to.lightGrid = castsShadows ? lightGrid(to.light, to.drawn.spheres, view.light.softness) : LightGrid{};
     to.shadowBoxes = castsShadows ? shadowBoxes(view.boxObstacles) : ShadowBoxes{};
-    to.lightBoxes =
-        lightBoxGrid(to.light, to.frame, to.shadowBoxes.boxes, view.light.softness * to.meanRadius);
+    to.lightBoxes = lightBoxGrid(to.light, to.frame, to.shadowBoxes.boxes, view.light.softness * to.meanRadius);
     to.depthMap = castsShadows && to.hasMetaballs ? depthMapGrid(to.light, view, to.skin, to.settings.depthMapTexels)
                                                   : DepthMapGrid{};
     to.meshDepthMap = castsShadows && !to.meshes.empty()

@@ -13,6 +13,7 @@
 #include "render/prepare/ambient_occlusion.h"
 #include "render/prepare/depth_map_grid.h"
 #include "render/prepare/drawn_spheres.h"
+#include "render/prepare/glow_light.h"
 #include "render/prepare/light_space.h"
 #include "render/prepare/metaball_scene.h"
 #include "render/prepare/screen_lines.h"
@@ -61,9 +62,10 @@ struct PreparedView {
     ShadowBoxes shadowBoxes;          ///< empty unless boxes cast shadows
     LightBoxGrid lightBoxes;          ///< of shadowBoxes
     bool needsSkyVisibility = false;  ///< whether some term of the shading model needs it
-    SkyVisibilityGrid skyGrid;
+    SkyVisibilityGrid skyGrid;        ///< empty unless needed or particles glow
     SkyVisibilityMap groundSky;
     std::vector<SkyVisibility> particleSky;
+    GlowGrid glowGrid;  ///< empty unless particles glow
 
     std::optional<View> withoutStrays;  ///< what `view` points to if strays were removed
 

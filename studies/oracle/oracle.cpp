@@ -234,7 +234,8 @@ dvec3 shadeSurface(const Scene& scene, const Hit& hit, const Ray& ray) {
                               (skyLight(view, -n) + light * (0.25 + std::max(0.0, -glm::dot(n, toLight))));
     const dvec3 body =
         glm::mix(hit.albedo, hit.albedo * hit.albedo, double(surface.absorption) * (1.0 - visibilityToward(sky, -n)));
-    dvec3 color = (1.0 - double(surface.metal)) * body * (ambient + diffuse + transmitted);
+    dvec3 color =
+        (1.0 - double(surface.metal)) * body * (ambient + diffuse + transmitted + scene.glow.at(hit.point, n));
     const dvec3 mirror = glm::reflect(ray.direction, n);
     const double unhidden = 1.0 - double(view.ambient.occlusion) * (1.0 - visibilityToward(sky, mirror));
     if (isParticle && isLit) color += visible * unhidden * light * highlight(view, hit, toEye, toLight);
@@ -251,7 +252,12 @@ dvec3 shadeSurface(const Scene& scene, const Hit& hit, const Ray& ray) {
 }  // namespace
 
 Scene::Scene(const render::View& view_, bool bruteForce)
-    : view(view_), balls(ballsOf(view_)), sky(view_), meshes(view_), shadowBoxes(oracle::shadowBoxes(view_.boxObstacles)) {
+    : view(view_),
+      balls(ballsOf(view_)),
+      sky(view_),
+      meshes(view_),
+      shadowBoxes(oracle::shadowBoxes(view_.boxObstacles)),
+      glow(view_, sky) {
     if (bruteForce) return;
     std::vector<Extent> extents;
     for (std::size_t k = 0; k < balls.size(); ++k) {
@@ -401,7 +407,8 @@ Picture drawWindow(const Scene& scene, render::PictureSize size, const Window& w
                 for (int i = 0; i < samplesPerAxis; ++i)
                     sum += sampleAt(x + (i + 0.5) / samplesPerAxis, y + (j + 0.5) / samplesPerAxis);
             const dvec3 mean = glm::clamp(sum / double(samplesPerAxis * samplesPerAxis), 0.0, 1.0);
-            for (int channel = 0; channel < 3; ++channel) picture.rgb.push_back(encodeSrgb(mean[channel], ditherThreshold(x, y)));
+            for (int channel = 0; channel < 3; ++channel)
+                picture.rgb.push_back(encodeSrgb(mean[channel], ditherThreshold(x, y)));
         }
     }
     return picture;

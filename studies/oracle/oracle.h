@@ -23,6 +23,7 @@
 #include "render/picture/view.h"
 #include "studies/oracle/ball_grid.h"
 #include "studies/oracle/box_union.h"
+#include "studies/oracle/glow_light.h"
 #include "studies/oracle/intersections.h"
 #include "studies/oracle/mesh_tree.h"
 #include "studies/oracle/sky_visibility.h"
@@ -50,6 +51,7 @@ struct Scene {
     SkyVisibility sky;
     MeshTree meshes;
     std::vector<SignedBox> shadowBoxes;
+    GlowLight glow;
 
     /// The indices of all balls that a ray may cross, and perhaps of some that it misses.
     Indices ballsAlong(const Ray& ray) const;

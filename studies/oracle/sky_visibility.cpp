@@ -12,7 +12,7 @@ namespace {
 /// Whether the shading of a view depends on the visibility of the sky.
 bool isUsed(const render::View& view) {
     return view.ambient.occlusion > 0.0F || view.surface.reflection > 0.0F || view.surface.translucency > 0.0F ||
-           view.surface.absorption > 0.0F;
+           view.surface.absorption > 0.0F || view.surface.glow > 0.0F;
 }
 
 /// Side of the cubes of the visibility grid, m: the smallest power of 2^(1/4) that is not below twice the particles'

@@ -29,6 +29,7 @@ class SkyVisibility {
     explicit SkyVisibility(const render::View& view);
 
     AxisVisibility at(const glm::dvec3& point) const;
+    double side() const { return side_; }
     const AxisVisibility& ofParticle(std::uint32_t particle) const { return particles_[particle]; }
 
  private:

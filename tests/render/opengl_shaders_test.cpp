@@ -75,7 +75,7 @@ std::vector<Term> terms() {
         {[](View& v) { v.surface.roughness = 0.1F; }, {"ROUGHNESS"}},
         {[](View& v) { v.surface.translucency = 0.1F; }, {"PARTICLE_SKY", "TRANSLUCENCY"}},
         {[](View& v) { v.surface.absorption = 0.1F; }, {"ABSORPTION", "PARTICLE_SKY"}},
-        {[](View& v) { v.surface.glow = 0.1F; }, {"GLOW"}},
+        {[](View& v) { v.surface.glow = 0.1F; }, {"GLOW", "GLOW_LIGHT"}},
         {[](View& v) { v.light.rim.r = 0.1F; }, {"RIM"}},
         {[](View& v) { v.exposure = 1.0F; }, {"EXPOSURE"}},
         {[](View& v) {
@@ -163,7 +163,7 @@ TEST_CASE("Terms of the whole picture, and tiles that show less, have their own 
     CHECK(definesOf(view, TileClass::background) == render::Defines{"PERSPECTIVE"});
     CHECK(definesOf(view, TileClass::openGround) == render::Defines{"EXPOSURE", "GROUND", "PERSPECTIVE", "SOFT"});
     CHECK(definesOf(view, TileClass::occludedGround) ==
-          render::Defines{"BOX_SHADOWS", "EXPOSURE", "GROUND", "GROUND_OCCLUSION", "MESH_SHADOWS",
+          render::Defines{"BOX_SHADOWS", "EXPOSURE", "GLOW_LIGHT", "GROUND", "GROUND_OCCLUSION", "MESH_SHADOWS",
                           "OCCLUSION", "PERSPECTIVE", "SHADOWS", "SOFT", "SPHERE_SHADOWS"});
     const render::Defines objects = definesOf(view, TileClass::objects);
     for (const char* flat : {"BOXES", "LINES", "MESHES"})

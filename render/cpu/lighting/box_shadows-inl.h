@@ -133,8 +133,8 @@ HWY_INLINE V boxesCoverage(const Occluders& occluders, const Receivers& at) {
     for (M left = at.isFacing; !none(left);) {
         const std::int32_t one = lists[static_cast<std::size_t>(hn::FindFirstTrue(d, left))];
         const M where = hn::And(left, floatMask(list == splatInt(one)));
-        coverage = hn::IfThenElse(where, listedBoxesCoverage(occluders, static_cast<std::size_t>(one), at, where),
-                                  coverage);
+        coverage =
+            hn::IfThenElse(where, listedBoxesCoverage(occluders, static_cast<std::size_t>(one), at, where), coverage);
         left = hn::AndNot(where, left);
     }
     return coverage;

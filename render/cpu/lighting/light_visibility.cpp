@@ -15,6 +15,7 @@
 #include <hwy/highway.h>
 
 #include "render/cpu/lighting/box_shadows-inl.h"
+#include "render/cpu/lighting/glow_light-inl.h"
 #include "render/cpu/lighting/receivers-inl.h"
 #include "render/cpu/raster/simd_loads-inl.h"
 #include "render/prepare/simd_occlusion-inl.h"
@@ -240,6 +241,7 @@ void computeLightVisibility(const Occluders& occluders, const ShadingGeometry& g
     const D d;
     const LightBasis& light = occluders.light;
     const V width = splat(geometry.frame.pixelWidth());
+    visibility.hasGlow = occluders.glow != nullptr;
     for (std::size_t first = 0; first < points.count; first += hn::Lanes(d)) {
         const Vec3 position = loadVec3(points.position, first);
         const Vec3 normal = loadVec3(points.normal, first);
@@ -255,6 +257,8 @@ void computeLightVisibility(const Occluders& occluders, const ShadingGeometry& g
             occluders.sky != nullptr ? skyVisibilityAt(occluders, geometry, hitId, position, normal) : splat(1.0F);
         store(lit, &visibility.light[first]);
         store(sky, &visibility.sky[first]);
+        if (visibility.hasGlow)
+            storeVec3(glowLightAt(*occluders.glow, occluders.eye, position, normal), visibility.glow, first);
     }
 }
 

@@ -10,11 +10,13 @@
 #include "render/cpu/lighting/shading_points.h"
 #include "render/picture/view.h"
 #include "render/prepare/ambient_occlusion.h"
+#include "render/prepare/glow_light.h"
 #include "render/prepare/light_space.h"
 
 namespace render {
 
-/// Everything that casts shadows or occludes the sky. A pointer is null where there is nothing of its kind.
+/// Everything that casts shadows, occludes the sky or is a light beside the light of the view. A pointer is null where
+/// there is nothing of its kind.
 struct Occluders {
     LightBasis light;
     glm::vec3 eye{0.0F};  ///< world coordinates, m
@@ -28,19 +30,22 @@ struct Occluders {
     float meanRadius = 0.0F;                      ///< mean radius of the particles, m
     const SkyVisibilityGrid* sky = nullptr;       ///< sky visibility, null without ambient occlusion
     const SkyVisibilityMap* groundSky = nullptr;  ///< sky visibility of the ground, null without ambient occlusion
+    const GlowGrid* glow = nullptr;               ///< light of particles, null if none glows
 
     bool isEmpty() const {
         return spheres == nullptr && metaballs == nullptr && meshes == nullptr && lightBoxes == nullptr &&
-               sky == nullptr;
+               sky == nullptr && glow == nullptr;
     }
 };
 
-/// How much light and sky reaches each shading point, from 0 to 1.
+/// How much light and sky reaches each shading point, from 0 to 1, and the light of particles.
 struct LightVisibility {
     alignas(64)
         std::array<float, kTilePixels> light;  ///< share of the light: 0 in shadow and on surfaces turned away from it
     alignas(
         64) std::array<float, kTilePixels> sky;  ///< share of the sky; 1 on particles, for which ShadingPoints has it
+    alignas(64) TileVec3 glow;                   ///< linear RGB of the light of particles; only with hasGlow
+    bool hasGlow = false;
 };
 
 /// Computes how much light and sky reaches each shading point. The values of a point depend on that point alone, bit

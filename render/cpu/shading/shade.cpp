@@ -92,8 +92,8 @@ HWY_INLINE Vec3 encodedSteps(const Vec3& linear) {
 /// Rounds encoded colors to whole steps by the pixels' thresholds, see dither.h, and writes them to a vector of pixels.
 HWY_INLINE void storeSteps(const Vec3& steps, V thresholds, PixelColor* pixels) {
     const auto rounded = [&](V channel) { return hn::ConvertTo(DI(), channel + thresholds); };
-    const VI packed = hn::Or(rounded(steps.x),
-                             hn::Or(hn::ShiftLeft<8>(rounded(steps.y)), hn::ShiftLeft<16>(rounded(steps.z))));
+    const VI packed =
+        hn::Or(rounded(steps.x), hn::Or(hn::ShiftLeft<8>(rounded(steps.y)), hn::ShiftLeft<16>(rounded(steps.z))));
     const hn::RebindToUnsigned<D> du;
     hn::StoreU(hn::BitCast(du, packed), du, pixels);
 }
@@ -107,6 +107,7 @@ struct ShadingInputs {
     V skyAlong;         // sky visibility along the normal, 0 to 1
     V skyBehind;        // sky visibility against the normal
     V skyMirrored;      // sky visibility along the mirrored ray
+    Vec3 glow;          // light of glowing particles; read only where some glow
 };
 
 V positive(V value) {
@@ -164,7 +165,7 @@ Vec3 rim(const Shading& shading, const ShadingInputs& at) {
     return splat(shading.light.rim) * strength;
 }
 
-/// The body's color times ambient, diffuse and transmitted light.
+/// The body's color times ambient, diffuse and transmitted light and that of particles.
 Vec3 bodyColor(const Shading& shading, const ShadingInputs& at) {
     const Surface& surface = shading.surface;
     const V one = splat(1.0F);
@@ -184,6 +185,7 @@ Vec3 bodyColor(const Shading& shading, const ShadingInputs& at) {
         const Vec3 through = skyToward(shading.ambient, hn::Neg(at.normal.y)) + lightColor * behind;
         light = light + through * (at.isParticle * splat(surface.translucency) * at.skyBehind);
     }
+    if (surface.glow > 0.0F) light = light + at.glow;
     Vec3 body = at.albedo;
     if (surface.absorption > 0.0F) {
         const V depth = splat(surface.absorption) * (one - at.skyBehind);
@@ -244,7 +246,8 @@ ShadingInputs loadInputs(const ShadingGeometry& geometry, const ShadingPoints& p
             light,
             hn::IfThenElse(isParticle, particleSky.x, sky),
             particleSky.y,
-            particleSky.z};
+            particleSky.z,
+            visibility != nullptr && visibility->hasGlow ? loadVec3(visibility->glow, first) : splat(glm::vec3(0.0F))};
 }
 
 /// Linear colors of the background at heights y on the picture, in pixels from its top.
@@ -276,7 +279,8 @@ void shade(const Shading& shading, const ShadingGeometry& geometry, const Shadin
 glm::vec3 openGroundColor(const Shading& shading, glm::vec3 albedo) {
     const V one = splat(1.0F);
     const Vec3 up = splat({0.0F, 1.0F, 0.0F});
-    const Vec3 color = surfaceColor(shading, {up, splat(albedo), up, splat(0.0F), one, one, one, one});
+    const Vec3 color =
+        surfaceColor(shading, {up, splat(albedo), up, splat(0.0F), one, one, one, one, splat(glm::vec3(0.0F))});
     return {hn::GetLane(color.x), hn::GetLane(color.y), hn::GetLane(color.z)};
 }
 

@@ -22,12 +22,14 @@
 //   boxCells:            origin of the grid of boxes that cast shadows (m), 1 / side of a cell (1/m); w: widest pixel
 //                        for which the lists of its cells are complete (m)
 //   skyCells:            center of the first cube of the sky visibility (m), 1 / side of a cube (1/m)
+//   glowCells:           center of the first cube of the particles' light (m), 1 / side of a cube (1/m)
 //   depthMapGrid:        origin of the metaballs' depth map on the light's plane (m), side of a texel (m), its top (m)
 //   depthMapSize:        columns and rows of its texels, 1 / its height (1/m); w: greatest reach of a metaball (m)
 //   sampleOffset:        of a single sample from the middle of the pixel (pixels); z: depth by which neighboring
 //                        points of smooth metaballs differ at most (m); w: field beside which there is no surface
 //   lightCellCount:      columns and rows of the grid of lightCells, then of that of boxCells
 //   skyCellCount:        number of cubes along each axis
+//   glowCellCount:       as skyCellCount, of the cubes of glowCells
 //   metaballs:           threshold of the field, spacing of its samples on a ray (m), smallest radius (m), and how near
 //                        the field may come to the threshold between samples before it is sampled more densely
 //   counts:              index of the first sphere that is no particle, squarings of the highlight, boxes
@@ -35,8 +37,9 @@
 #define FRAME_FIELDS(X) \
     X(image) X(right) X(up) X(forward) X(toLight) X(lightU) X(lightV) X(lightColor) X(sky) X(skyBelow) \
     X(surface) X(body) X(surroundingsTop) X(surroundingsHorizon) X(surroundingsBottom) X(backgroundTop) \
-    X(backgroundBottom) X(groundColor) X(groundCenter) X(lightCells) X(boxCells) X(skyCells) X(depthMapGrid) \
-    X(depthMapSize) X(sampleOffset) X(lightCellCount) X(skyCellCount) X(metaballs) X(counts)
+    X(backgroundBottom) X(groundColor) X(groundCenter) X(lightCells) X(boxCells) X(skyCells) X(glowCells) \
+    X(depthMapGrid) X(depthMapSize) X(sampleOffset) X(lightCellCount) X(skyCellCount) X(glowCellCount) \
+    X(metaballs) X(counts)
 
 #define BLOCK_FIELD(name) vec4 name;
 layout(std140) uniform Frame {

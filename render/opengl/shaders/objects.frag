@@ -46,6 +46,9 @@ const vec4 kOffsetY = vec4(-0.375, -0.125, 0.125, 0.375);
 
 #include "packing.glsl"
 #include "light.glsl"
+#ifdef GLOW_LIGHT
+#include "glow_light.glsl"
+#endif
 #include "shading.glsl"
 #ifdef METABALLS
 #ifdef MARKED

@@ -9,6 +9,9 @@ uniform samplerBuffer groundSky;
 
 #include "packing.glsl"
 #include "light.glsl"
+#ifdef GLOW_LIGHT
+#include "glow_light.glsl"
+#endif
 #include "shading.glsl"
 #include "points.glsl"
 #include "output.glsl"

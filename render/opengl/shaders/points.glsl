@@ -75,6 +75,7 @@ Point pointOf(int id, Ray ray) {
     at.isParticle = 0.0;
     at.light = 1.0;
     at.sky = vec3(1.0);
+    at.glow = vec3(0.0);
 #ifdef GROUND
     if (id == kHitGround) setGround(ray, at);
 #endif
@@ -106,6 +107,9 @@ vec3 colorOf(int id, vec2 pixel) {
 #endif
 #ifdef OBSTACLE_OCCLUSION
     if (id >= int(counts.x) && id < kHitMetaballs) at.sky.x = obstacleSkyVisibility(at.position, at.normal);
+#endif
+#ifdef GLOW_LIGHT
+    at.glow = glowLight(at.position, at.normal);
 #endif
     vec3 color = surfaceColor(at);
 #ifdef GROUND

@@ -9,6 +9,7 @@ struct Point {
     float isParticle; // 1 on particles, which alone have the terms of the surface; 0 on obstacles and the ground
     float light;      // share of the light that reaches the point
     vec3 sky;         // sky visibility along the normal, against it and along the mirrored ray
+    vec3 glow;        // light of glowing particles
 };
 
 vec3 skyLight(float up) {
@@ -78,6 +79,9 @@ vec3 bodyColor(Point at) {
 #ifdef TRANSLUCENCY
     vec3 through = skyLight(-at.normal.y) + lightColor.rgb * (0.25 + max(-facing, 0.0));
     light += through * (at.isParticle * body.x * at.sky.y);
+#endif
+#ifdef GLOW_LIGHT
+    light += at.glow;
 #endif
     vec3 color = at.albedo;
 #ifdef ABSORPTION
