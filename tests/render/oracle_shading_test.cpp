@@ -309,19 +309,30 @@ TEST_CASE("oracle: a picture runs from the top left, with the background's top c
     CHECK(std::isinf(picture.distances.back()));
     for (std::size_t y = 0; y < 4; ++y) {
         const double t = 1.0 - (double(y) + 0.5) / 4.0;
-        CHECK(picture.rgb[3 * (8 * y + 7)] == oracle::encodeSrgb(t));
-        CHECK(picture.rgb[3 * (8 * y + 7) + 2] == oracle::encodeSrgb(1.0 - t));
+        const double threshold = oracle::ditherThreshold(7, static_cast<int>(y));
+        CHECK(picture.rgb[3 * (8 * y + 7)] == oracle::encodeSrgb(t, threshold));
+        CHECK(picture.rgb[3 * (8 * y + 7) + 2] == oracle::encodeSrgb(1.0 - t, threshold));
     }
 }
 
+TEST_CASE("oracle: thresholds are Bayer's") {
+    CHECK(oracle::ditherThreshold(0, 0) == 0.5 / 64.0);
+    CHECK(oracle::ditherThreshold(1, 0) == 32.5 / 64.0);
+    CHECK(oracle::ditherThreshold(0, 1) == 48.5 / 64.0);
+    CHECK(oracle::ditherThreshold(1, 1) == 16.5 / 64.0);
+    CHECK(oracle::ditherThreshold(2, 0) == 8.5 / 64.0);
+    CHECK(oracle::ditherThreshold(12, 8) == 2.5 / 64.0);
+}
+
 TEST_CASE("oracle: samples are clamped, then averaged in linear light") {
-    const int samplesPerAxis = GENERATE(2, 4);  // even, so that half of the samples are left of the middle
+    const int samplesPerAxis = GENERATE(2, 4);     // even, so that half of the samples are left of the middle
+    const std::vector<std::uint8_t> gray(3, 187);  // 187.52, and the first pixel's threshold is 1/128
     render::View view = orthographicView(1.0F);
     view.background = {glm::vec3{1.0F}, glm::vec3{0.0F}};
-    CHECK(oracle::draw(view, {1, 1}, samplesPerAxis).rgb == std::vector<std::uint8_t>{188, 188, 188});
+    CHECK(oracle::draw(view, {1, 1}, samplesPerAxis).rgb == gray);
     view.background = {};
     view.ambient.sky = view.ambient.ground = glm::vec3{4.0F};
     // Four times white on the left half.
     view.boxObstacles = {{{-5.0F, -5.0F, -1.0F}, {0.0F, 5.0F, 0.0F}, glm::vec3{1.0F}}};
-    CHECK(oracle::draw(view, {1, 1}, samplesPerAxis).rgb == std::vector<std::uint8_t>{188, 188, 188});
+    CHECK(oracle::draw(view, {1, 1}, samplesPerAxis).rgb == gray);
 }
