@@ -100,7 +100,8 @@ std::vector<Key> surfaceKeys() {
             .defaultsTo("0")
             .within({0.0, 4.0}),
         share("absorption", "how much more saturated and darker the color of thick parts is").defaultsTo("0"),
-        key("glow", Type::number, "", "strength of the particles' own light, in the square of their color")
+        key("glow", Type::number, "",
+            "strength of the particles' own light, in the square of their color; lights what is around them")
             .defaultsTo("0")
             .within(kLight),
     };
