@@ -13,11 +13,11 @@
 #include "render/prepare/ambient_occlusion.h"
 #include "render/prepare/depth_map_grid.h"
 #include "render/prepare/drawn_spheres.h"
-#include "render/prepare/glow_light.h"
 #include "render/prepare/light_space.h"
+#include "render/prepare/lighting/glow_light.h"
+#include "render/prepare/lighting/shadow_boxes.h"
 #include "render/prepare/metaball_scene.h"
 #include "render/prepare/screen_lines.h"
-#include "render/prepare/shadow_boxes.h"
 #include "render/prepare/skin.h"
 #include "render/prepare/tiles.h"
 

@@ -7,8 +7,8 @@
 
 #include <tbb/global_control.h>
 
-#include "render/prepare/glow_light.h"
-#include "render/prepare/tiles.h"
+#include "render/prepare/ambient_occlusion.h"
+#include "render/prepare/lighting/glow_light.h"
 #include "tests/render/pictures.h"
 
 using namespace pictures;
@@ -43,12 +43,14 @@ struct Heap {
             if (distance >= 6.0 * side) continue;
             double open = 0.0;
             for (int axis = 0; axis < 3; ++axis)
-                open += u[axis] * u[axis] * double(sky[k][static_cast<std::size_t>(2 * axis + (u[axis] > 0.0 ? 0 : 1))]);
+                open +=
+                    u[axis] * u[axis] * double(sky[k][static_cast<std::size_t>(2 * axis + (u[axis] > 0.0 ? 0 : 1))]);
             const double radius = double(particles[k].radius);
             const double window = 1.0 - distance * distance / (36.0 * side * side);
             const glm::dvec3 albedo(particles[k].color);
-            sum += 2.0 * albedo * albedo * (radius * radius * open * std::max(0.0, -glm::dot(u, facing)) * window *
-                                            window / (distance * distance + 0.25 * side * side));
+            sum += 2.0 * albedo * albedo *
+                   (radius * radius * open * std::max(0.0, -glm::dot(u, facing)) * window * window /
+                    (distance * distance + 0.25 * side * side));
         }
         return sum;
     }
@@ -93,7 +95,7 @@ TEST_CASE("The light of particles ends at the border of its grid and behind what
     const Heap heap(6);
     const render::GlowGrid grid = heap.grid();
     const auto valueAt = [&](glm::ivec3 cell, std::size_t side) {
-        return grid.values[6 * render::cellIndex(grid.cells, cell.x, cell.y, cell.z) + side].x;
+        return grid.values[6 * grid.cellIndex(cell.x, cell.y, cell.z) + side].x;
     };
     for (int y = 0; y < grid.cells.y; ++y)
         for (int z = 0; z < grid.cells.z; ++z)

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "render/prepare/shadow_boxes.h"
+#include "render/prepare/lighting/shadow_boxes.h"
 #include "tests/render/pictures.h"
 
 using namespace pictures;

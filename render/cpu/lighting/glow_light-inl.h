@@ -11,7 +11,7 @@
 
 #include "render/cpu/lighting/receivers-inl.h"
 #include "render/cpu/raster/simd_loads-inl.h"
-#include "render/prepare/glow_light.h"
+#include "render/prepare/lighting/glow_light.h"
 #include "render/prepare/simd_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -10,8 +10,8 @@
 #include "render/cpu/lighting/shading_points.h"
 #include "render/picture/view.h"
 #include "render/prepare/ambient_occlusion.h"
-#include "render/prepare/glow_light.h"
 #include "render/prepare/light_space.h"
+#include "render/prepare/lighting/glow_light.h"
 
 namespace render {
 

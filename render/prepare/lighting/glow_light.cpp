@@ -1,6 +1,6 @@
 // Emission is spread over cubes, and each cube that emits lights those around it. Threads share the cubes that receive
 // light by layers, and each adds up the emitters in the same order.
-#include "render/prepare/glow_light.h"
+#include "render/prepare/lighting/glow_light.h"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "render/picture/camera_frame.h"
-#include "render/prepare/tiles.h"
+#include "render/picture/bounds.h"
 
 namespace render {
 
@@ -48,9 +47,9 @@ void fitToParticles(std::span<const Sphere> particles, GlowGrid& grid) {
 }
 
 /// The cubes that emit light, in the order of the grid.
-std::vector<Emitter> emittersOf(std::span<const Sphere> particles, float glow, std::span<const SkyVisibility> sky,
-                                const GlowGrid& grid) {
-    std::vector<SixColors> spread(cellIndex(grid.cells, 0, 0, grid.cells.z), SixColors{});
+std::vector<Emitter> emittersOf(std::span<const Sphere> particles, float glow,
+                                std::span<const std::array<float, 6>> sky, const GlowGrid& grid) {
+    std::vector<SixColors> spread(grid.cellIndex(0, 0, grid.cells.z), SixColors{});
     for (std::size_t k = 0; k < particles.size(); ++k) {
         const Sphere& particle = particles[k];
         if (!(particle.radius > 0.0F)) continue;
@@ -62,7 +61,7 @@ std::vector<Emitter> emittersOf(std::span<const Sphere> particles, float glow, s
             const glm::ivec3 step(c & 1, (c >> 1) & 1, c >> 2);
             const glm::vec3 weights = glm::mix(1.0F - part, part, glm::vec3(step));
             const glm::vec3 share = power * (weights.x * weights.y * weights.z);
-            SixColors& to = spread[cellIndex(grid.cells, corner.x + step.x, corner.y + step.y, corner.z + step.z)];
+            SixColors& to = spread[grid.cellIndex(corner.x + step.x, corner.y + step.y, corner.z + step.z)];
             for (std::size_t side = 0; side < 6; ++side) to[side] += share * sky[k][side];
         }
     }
@@ -70,7 +69,7 @@ std::vector<Emitter> emittersOf(std::span<const Sphere> particles, float glow, s
     for (int z = 0; z < grid.cells.z; ++z)
         for (int y = 0; y < grid.cells.y; ++y)
             for (int x = 0; x < grid.cells.x; ++x) {
-                const SixColors& found = spread[cellIndex(grid.cells, x, y, z)];
+                const SixColors& found = spread[grid.cellIndex(x, y, z)];
                 if (std::ranges::any_of(found,
                                         [](glm::vec3 color) { return any(greaterThan(color, glm::vec3(0.0F))); }))
                     emitters.push_back({{x, y, z}, found});
@@ -128,7 +127,7 @@ void lightLayer(std::span<const Emitter> emitters, const Kernel& kernel, int z, 
                 const glm::ivec3 offset(x, y, z - emitter.cell.z);
                 const Kernel::Entry& entry = kernel.at(offset);
                 if (entry.squares == glm::vec3(0.0F)) continue;
-                const std::size_t cell = cellIndex(grid.cells, emitter.cell.x + x, emitter.cell.y + y, z);
+                const std::size_t cell = grid.cellIndex(emitter.cell.x + x, emitter.cell.y + y, z);
                 addLight(emitter, entry, offset, &grid.values[6 * cell]);
             }
     }
@@ -136,7 +135,8 @@ void lightLayer(std::span<const Emitter> emitters, const Kernel& kernel, int z, 
 
 }  // namespace
 
-GlowGrid glowGrid(std::span<const Sphere> particles, float glow, std::span<const SkyVisibility> sky, float skySide) {
+GlowGrid glowGrid(std::span<const Sphere> particles, float glow, std::span<const std::array<float, 6>> sky,
+                  float skySide) {
     GlowGrid grid;
     if (particles.empty() || !(glow > 0.0F)) return grid;
     grid.side = 2.0F * skySide;
@@ -148,7 +148,7 @@ GlowGrid glowGrid(std::span<const Sphere> particles, float glow, std::span<const
         emitters = emittersOf(particles, glow, sky, grid);
     }
     if (emitters.empty()) return grid;
-    grid.values.assign(6 * cellIndex(grid.cells, 0, 0, grid.cells.z), glm::vec4(0.0F));
+    grid.values.assign(6 * grid.cellIndex(0, 0, grid.cells.z), glm::vec4(0.0F));
     const Kernel kernel(grid.side);
     tbb::parallel_for(0, grid.cells.z, [&](int z) { lightLayer(emitters, kernel, z, grid); });
     return grid;

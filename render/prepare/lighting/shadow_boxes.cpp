@@ -2,7 +2,7 @@
 // their intersection, a box as well, stands for. Where outlines of neighbors run along one line, it ends in the same
 // corner as one of them, so that the corner cancels. Boxes are grown through their neighbors before, because boxes that
 // only touch have no intersection.
-#include "render/prepare/shadow_boxes.h"
+#include "render/prepare/lighting/shadow_boxes.h"
 
 #include <algorithm>
 #include <numeric>
