@@ -46,6 +46,7 @@ int main(int argc, char** argv) {
     tools::addSimulateCommand(program);
     tools::addMeshCommand(program);
     tools::addFiguresCommand(program);
+    tools::addGalleryCommand(program);
     tools::addVideoCommand(program);
     tools::addAssembleCommand(program);
     tools::addCompareCommand(program);

@@ -19,6 +19,7 @@ void addStripCommand(CLI::App& program);
 void addSimulateCommand(CLI::App& program, SimulationHost* host = nullptr);
 void addMeshCommand(CLI::App& program);
 void addFiguresCommand(CLI::App& program);
+void addGalleryCommand(CLI::App& program);
 void addVideoCommand(CLI::App& program);
 void addAssembleCommand(CLI::App& program);
 void addCompareCommand(CLI::App& program);

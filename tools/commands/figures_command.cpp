@@ -59,14 +59,6 @@ std::string constantsOf(const scenes::Scene& scene, std::size_t particleCount) {
         engine::nameOf(scene.setup.stepper), scene.setup.step);
 }
 
-/// The flags with which `render` draws as the figures are drawn, each after a space.
-std::string rendererFlags(const DrawOptions& draw) {
-    std::string flags;
-    if (draw.renderer != DrawOptions().renderer) flags += " --renderer " + draw.renderer;
-    if (!draw.device.empty()) flags += " --gl " + draw.device;
-    return flags;
-}
-
 FigureEntry makeFigure(int number, const FiguresOptions& options) {
     const std::string name = fmt::format("figure-{}", number);
     const scenes::Scene scene = load({name, {}, {}});
@@ -85,7 +77,7 @@ FigureEntry makeFigure(int number, const FiguresOptions& options) {
         entry.parameters.emplace_back(value.path, value.unit.empty() ? value.toml : value.toml + " " + value.unit);
     }
     entry.command =
-        fmt::format("globular render {0} -o out/{0} --video out/{0}.mp4{1}", name, rendererFlags(options.draw));
+        fmt::format("globular render {0} -o out/{0} --video out/{0}.mp4{1}", name, drawFlags(options.draw));
 
     drawPictures(scene, options, entry);
     FinishedRun result = renderVideo(scene, options, entry);

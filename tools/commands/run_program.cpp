@@ -22,9 +22,6 @@
 namespace tools {
 namespace {
 
-constexpr int kOutsideFailed = 1;
-constexpr int kUnstable = 3;
-
 /// Makes glibc keep freed memory. Every frame and every neighbor list asks for the memory that the last one has freed.
 /// By default glibc returns blocks of 128 KiB and more to the system, which fills the pages with zeros again when they
 /// are next used. That took up to a quarter of the time of a frame.
@@ -58,22 +55,22 @@ int runProgram(CLI::App& program, int argc, char** argv) {
     } catch (const scenes::InputError& error) {
         return report(error.what(), kInputErrorCode);
     } catch (const engine::InstabilityError& error) {
-        return report(error.what(), kUnstable);
+        return report(error.what(), kUnstableCode);
     } catch (const ExitStatus& status) {
         return report(status.what(), status.code());
     } catch (const render::OpenGlError& error) {
-        return report(fmt::format("{}; without OpenGL: --renderer cpu", error.what()), kOutsideFailed);
+        return report(fmt::format("{}; without OpenGL: --renderer cpu", error.what()), kOutsideFailedCode);
     } catch (const std::system_error& error) {
         // fmt::print throws std::system_error when it cannot write to standard output.
         const bool isReaderGone = error.code() == std::errc::broken_pipe;
-        return isReaderGone ? kReaderGoneCode : report(error.what(), kOutsideFailed);
+        return isReaderGone ? kReaderGoneCode : report(error.what(), kOutsideFailedCode);
     } catch (const std::bad_alloc& error) {
-        return report(memoryMessage(error, "", ""), kOutsideFailed);
+        return report(memoryMessage(error, "", ""), kOutsideFailedCode);
     } catch (const std::logic_error& error) {
         report(fmt::format("internal error: {}", error.what()), 0);
         std::abort();  // an abort leaves a core dump for the debugger
     } catch (const std::exception& error) {
-        return report(error.what(), kOutsideFailed);
+        return report(error.what(), kOutsideFailedCode);
     }
 }
 

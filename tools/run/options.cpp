@@ -130,6 +130,20 @@ scenes::Overrides overridesOf(const DrawOptions& options) {
     return overrides;
 }
 
+std::string drawFlags(const DrawOptions& options) {
+    const DrawOptions defaults;
+    std::string flags;
+    const auto add = [&](const char* flag, const std::string& value, const std::string& usual) {
+        if (value != usual) flags += fmt::format(" {} {}", flag, value);
+    };
+    add("--size", options.size, defaults.size);
+    add("--style", options.style, defaults.style);
+    add("--quality", options.quality, defaults.quality);
+    add("--renderer", options.renderer, defaults.renderer);
+    add("--gl", options.device, defaults.device);
+    return flags;
+}
+
 void requirePipedOutput(const RunOptions& options) {
     if (options.json) throw scenes::InputError("--json", "standard output is for the pictures, with -o -");
     if (::isatty(STDOUT_FILENO) == 1)

@@ -109,6 +109,9 @@ std::string defaultOutput(const std::string& runName, std::string_view suffix);
 /// @throws scenes::InputError
 scenes::Overrides overridesOf(const DrawOptions& options);
 
+/// The flags that give these options, each after a space; none for what is the default.
+std::string drawFlags(const DrawOptions& options);
+
 /// Makes sure that pictures can be written to standard output: nothing else is printed there, and no person reads it.
 /// @throws scenes::InputError
 void requirePipedOutput(const RunOptions& options);

@@ -15,6 +15,12 @@ namespace tools {
 /// The exit code of the program if the scene or the command line is wrong.
 inline constexpr int kInputErrorCode = 2;
 
+/// The exit code if the outside world has failed: OpenGL, ffmpeg, the disk.
+inline constexpr int kOutsideFailedCode = 1;
+
+/// The exit code if the simulation became unstable.
+inline constexpr int kUnstableCode = 3;
+
 /// A shell reports a program that a signal ended with this code plus the number of the signal.
 inline constexpr int kSignalExitBase = 128;
 
