@@ -28,7 +28,7 @@ struct GalleryRun {
 struct GalleryEntry {
     std::string name;  ///< of the scene in the library, such as "paper/figure-1"
     std::string title;
-    std::string description;
+    std::string description;                                ///< may have backquotes around code
     std::string command;                                    ///< command line that makes the film
     std::string text;                                       ///< the scene file
     double duration = 0.0;                                  ///< of the animation, s

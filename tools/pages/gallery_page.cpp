@@ -72,10 +72,16 @@ std::string lookTable(const GalleryEntry& entry) {
     return fmt::format("<details><summary>Look</summary>\n{}</details>\n", htmlTable({{"key", "value"}, rows}));
 }
 
+/// Markdown without the backquotes around code.
+std::string plainText(std::string markdown) {
+    std::erase(markdown, '`');
+    return markdown;
+}
+
 std::string card(const GalleryEntry& entry) {
     std::string html = fmt::format("<section id=\"{}\">\n<h3>{}</h3>\n", escaped(entry.name), escaped(entry.title));
     html += entry.run ? film(entry) : statusOf(entry);
-    if (!entry.description.empty()) html += fmt::format("<p>{}</p>\n", escaped(entry.description));
+    if (!entry.description.empty()) html += fmt::format("<p>{}</p>\n", escaped(plainText(entry.description)));
     html += fmt::format("<p><code>{}</code></p>\n", escaped(entry.command));
     if (entry.run)
         html += fmt::format(
@@ -85,12 +91,6 @@ std::string card(const GalleryEntry& entry) {
     html += lookTable(entry);
     html += fmt::format("<details><summary>Scene</summary>\n<pre>{}</pre></details>\n", escaped(entry.text));
     return html + "</section>\n";
-}
-
-/// Markdown without the backquotes around code.
-std::string plainText(std::string markdown) {
-    std::erase(markdown, '`');
-    return markdown;
 }
 
 std::string markdownSection(const GalleryEntry& entry, const std::string& level) {
