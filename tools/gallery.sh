@@ -1,9 +1,8 @@
 #!/usr/bin/env bash
 # Draws the pictures of README.md and docs/ into docs/: the first scene as a moving picture and with one key changed at a time,
-# a still of each scene of the library's top folder, and a strip of moments of each figure of the paper. Needs the program,
-# which figures.sh builds. With names (first, keys, constants, shapes, loads, figures, splash, two-liquids, or scenes such as
-# honey) it draws these alone; with "times" it renders every scene that docs/gallery.md lists and prints particles, frames and
-# processor seconds.
+# the stills and the numbers of docs/gallery.md (scenes that out/gallery has already are not drawn again), and a strip of moments of
+# each figure of the paper. Needs the program, which figures.sh builds. With names (first, keys, constants, shapes, scenes, loads,
+# figures, splash, two-liquids) it draws these alone.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -11,28 +10,10 @@ globular=build/release/tools/globular
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-if [ "$*" = times ]; then
-    TIMEFORMAT="%U %S"
-    for scene in $("$globular" scenes | awk '$1 !~ /^hard/ { print $1 }'); do
-        { time "$globular" render "$scene" --quiet -o "$work/$scene"; } 2> "$work/seconds"
-        count() { grep -m1 "\"$1\"" "$work/$scene/run.json" | tr -dc 0-9; }
-        awk -v scene="$scene" -v particles="$(count particles)" -v frames="$(count frames)" \
-            '{ printf "%-22s %6d particles %5d frames %6.1f s\n", scene, particles, frames, $1 + $2 }' "$work/seconds"
-        rm -r "${work:?}/$scene"
-    done
-    exit
-fi
-
 wanted() { # name: whether to draw it
     [ -z "${names:-}" ] || [[ " $names " == *" $1 "* ]]
 }
 names="$*"
-
-still() { # scene, frame: mostly that of its still.time
-    wanted "$1" || return 0
-    "$globular" render "$1" --frames "$2" --size 960x540 --quality final --quiet -o "$work/$1"
-    cp "$work/$1/"frame-*.png "docs/$1.png"
-}
 
 # Finer particles for docs/first.toml (docs/model.md, "Finer particles").
 finer=(--set resolution=1.6)
@@ -149,26 +130,13 @@ if wanted shapes; then
     sheet 6x2 docs/bodies.webp
 fi
 
-still fountain 168
-still wine 75
-still gate 52
-still word 17
-still hourglass 180
-still mixer 90
-still stamp 140
-still conveyor 200
-still liquid 48
-still solid 72
-still powder 171
-still honey 144
-still jam 45
-still oil 90
-still lava 195
-still mud 75
-still molten-metal 168
-still sand 345
-still cascade 180
-still sticky 45
+if wanted scenes; then
+    "$globular" gallery -o out/gallery --size 960x540 --quiet --markdown > "$work/gallery.md"
+    mkdir -p docs/paper
+    cp out/gallery/*.png docs/
+    cp out/gallery/paper/*.png docs/paper/
+    cp "$work/gallery.md" docs/gallery.md
+fi
 
 if wanted figures; then
     for figure in 1 2 3 4; do
