@@ -55,6 +55,27 @@ TEST_CASE("A resumed run completes a killed one to the same bytes", "[resume]") 
     }
 }
 
+TEST_CASE("An animated picture of a resumed run has the bytes of an undisturbed one, and is never half-written",
+          "[resume]") {
+    const Folder folder;
+    for (const std::string extension : {".gif", ".webp"}) {
+        INFO(extension);
+        const auto film = [&](const std::string& name) { return folder / (name + extension); };
+        const auto drawn = [&](const std::string& name, const std::string& more = "") {
+            return "render fountain --size 96x54 --frames 0-19 --quiet --checkpoint 0 -o " +
+                   (folder / (name + extension + "-frames")).string() + " --video " + film(name).string() + " " + more;
+        };
+        REQUIRE(run(drawn("whole")).code == 0);
+        interrupted(drawn("a"), "KILL",
+                    onceThat("test -e " + (folder / ("a" + extension + "-frames")).string() + "/frame-00005.png"),
+                    folder / "log");
+        CHECK_FALSE(fs::exists(film("a")));
+        REQUIRE(run(drawn("a", "--resume")).code == 0);
+        CHECK(textOf(film("a")).size() > 1000);
+        CHECK(textOf(film("a")) == textOf(film("whole")));
+    }
+}
+
 TEST_CASE("A run that writes particle states is resumed as well", "[resume]") {
     const Folder folder;
     const auto states = [](const fs::path& to, const std::string& more) {
