@@ -108,8 +108,9 @@ std::string markdownSection(const GalleryEntry& entry, const std::string& level)
 
 std::string galleryPage(const std::vector<GalleryGroup>& groups) {
     std::string body =
-        fmt::format("<p>Wall-clock times are those of the whole command: simulating, drawing and encoding. {}</p>\n",
-                    escaped(fmt::format("{}", fmt::join(machinesOf(groups), "; "))));
+        "<p>Times are those of the whole command by the clock on the wall: simulating, drawing and encoding.</p>\n";
+    if (const auto machines = machinesOf(groups); !machines.empty())
+        body += fmt::format("<p>Measured with {}.</p>\n", escaped(fmt::format("{}", fmt::join(machines, "; "))));
     for (const GalleryGroup& group : groups) {
         if (group.entries.empty()) continue;
         if (!group.heading.empty()) body += fmt::format("<h2>{}</h2>\n", escaped(group.heading));
