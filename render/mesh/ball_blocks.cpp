@@ -15,17 +15,40 @@ struct BlockRange {
     glm::ivec3 low{0}, high{0};  ///< first and last block along each axis
 };
 
-/// The blocks that a ball's kernel reaches.
+/// The blocks that a ball's kernel reaches. @param reach  along each axis, m
 /// @param side  of a block, m
-BlockRange rangeOf(const glm::dvec3& center, double reach, double side) {
+BlockRange rangeOf(const glm::dvec3& center, const glm::dvec3& reach, double side) {
     return {glm::ivec3(floor((center - reach) / side)), glm::ivec3(floor((center + reach) / side))};
 }
 
 /// Whether a ball lies where blocks have numbers; false for a center that is not finite.
-bool isNear(const glm::dvec3& center, double reach, double side) {
+bool isNear(const glm::dvec3& center, const glm::dvec3& reach, double side) {
     for (int axis = 0; axis < 3; ++axis)
-        if (!(std::abs(center[axis]) + reach < kFarthest * side)) return false;
+        if (!(std::abs(center[axis]) + reach[axis] < kFarthest * side)) return false;
     return true;
+}
+
+/// The form of a ball of an anisotropic skin.
+SymmetricMatrix<double> formOf(const SkinBall& ball) {
+    const SymmetricMatrix<float>& s = ball.spread;
+    return inverse(SymmetricMatrix<double>{double(s.xx), double(s.yy), double(s.zz), double(s.xy), double(s.xz),
+                                           double(s.yz)}) *
+           double(kernelOf(ball).peak);
+}
+
+/// Adds the kernel of an ellipsoid to the nodes of a block.
+/// @param first  the vector from its center to the block's first node, m
+/// @param step   distance of neighboring nodes, m
+void addEllipsoid(const BallBlocks::Ball& ball, const glm::dvec3& first, double step, BlockNodes& field) {
+    for (int x = 0; x < kBlockSide; ++x) {
+        for (int y = 0; y < kBlockSide; ++y) {
+            float* const row = &field[static_cast<std::size_t>((x * kBlockSide + y) * kBlockSide)];
+            for (int z = 0; z < kBlockSide; ++z) {
+                const auto root = static_cast<float>(std::max(0.0, ball.root(first + step * glm::dvec3(x, y, z))));
+                row[z] += root * root;
+            }
+        }
+    }
 }
 
 template <typename Visit>
@@ -50,21 +73,23 @@ std::size_t BlockHash::operator()(const glm::ivec3& block) const {
 BallBlocks::BallBlocks(const View& view, double cell) : cell_(cell) {
     const std::vector<SkinBall> skin = skinOf(view);
     const double side = kBlockSide * cell;
-    std::vector<SkinBall> used;
+    std::vector<glm::dvec3> extents;
     for (std::size_t k = 0; k < skin.size(); ++k) {
         const SkinBall& ball = skin[k];
-        if (!(view.particles[k].radius > 0.0F) || !isNear(ball.center, double(ball.reach), side)) continue;
-        balls_.push_back({glm::dvec3(ball.center), kernelOf(ball), static_cast<std::uint32_t>(k)});
-        used.push_back(ball);
+        const glm::dvec3 extent(extentAlong(view, ball, {1.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}, {0.0F, 0.0F, 1.0F}));
+        if (!(view.particles[k].radius > 0.0F) || !isNear(ball.center, extent, side)) continue;
+        balls_.push_back({glm::dvec3(ball.center), kernelOf(ball), static_cast<std::uint32_t>(k), {}});
+        if (view.field.skin == Skin::anisotropic) balls_.back().form = formOf(ball);
+        extents.push_back(extent);
     }
-    listBalls(used);
+    listBalls(extents);
 }
 
-void BallBlocks::listBalls(std::span<const SkinBall> skin) {
+void BallBlocks::listBalls(std::span<const glm::dvec3> extents) {
     const double side = kBlockSide * cell_;
     const auto visitAll = [&](const auto& visit) {
-        for (std::size_t k = 0; k < skin.size(); ++k)
-            forEachBlock(rangeOf(glm::dvec3(skin[k].center), double(skin[k].reach), side),
+        for (std::size_t k = 0; k < extents.size(); ++k)
+            forEachBlock(rangeOf(balls_[k].center, extents[k], side),
                          [&](const glm::ivec3& block) { visit(block, static_cast<std::uint32_t>(k)); });
     };
     visitAll([&](const glm::ivec3& block, std::uint32_t) { ++positions_[block]; });
@@ -98,6 +123,10 @@ void BallBlocks::sample(std::size_t block, BlockNodes& field) const {
     const auto step = static_cast<float>(cell_);
     for (const std::uint32_t index : ballsOf(block)) {
         const Ball& ball = balls_[index];
+        if (ball.form) {
+            addEllipsoid(ball, first - ball.center, cell_, field);
+            continue;
+        }
         const glm::vec3 offset(first - ball.center);
         std::array<float, kBlockSide> squaredZ;
         for (int z = 0; z < kBlockSide; ++z) {

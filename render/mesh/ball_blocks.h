@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -36,7 +37,18 @@ class BallBlocks {
     struct Ball {
         glm::dvec3 center{0.0};
         BallKernel kernel;
-        std::uint32_t particle = 0;  ///< index of the particle that it stands for
+        std::uint32_t particle = 0;                   ///< index of the particle that it stands for
+        std::optional<SymmetricMatrix<double>> form;  ///< of an ellipsoid: its root is peak - d^T form d; 1/m^2
+
+        /// The square root of the kernel where that is above zero. @param offset  from the center, m
+        double root(const glm::dvec3& offset) const {
+            return form ? double(kernel.peak) - dot(offset, form->times(offset)) : kernel.root(dot(offset, offset));
+        }
+        /// A factor times half of the gradient of what the root loses with the offset from the center, 1/m.
+        glm::dvec3 steepness(double factor, const glm::dvec3& offset) const {
+            const double slope = double(kernel.slope);
+            return form ? factor * form->times(offset) : factor * slope * slope * offset;
+        }
     };
 
     /// The balls of a view's particles whose radius is above 0. Balls more than 2^27 blocks away from the origin along
@@ -63,13 +75,13 @@ class BallBlocks {
         for (const std::uint32_t index : ballsOf(static_cast<std::size_t>(block))) {
             const Ball& ball = balls_[index];
             const glm::dvec3 offset = point - ball.center;
-            const double root = ball.kernel.root(dot(offset, offset));
+            const double root = ball.root(offset);
             if (root > 0.0) visit(ball, offset, root);
         }
     }
 
  private:
-    void listBalls(std::span<const SkinBall> skin);
+    void listBalls(std::span<const glm::dvec3> extents);
     glm::ivec3 blockOf(const glm::dvec3& point) const;
     std::span<const std::uint32_t> ballsOf(std::size_t block) const {
         return std::span(items_).subspan(begin_[block], begin_[block + 1] - begin_[block]);

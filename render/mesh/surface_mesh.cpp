@@ -24,9 +24,8 @@ struct FieldSample {
 FieldSample fieldAt(const BallBlocks& balls, const glm::dvec3& point) {
     FieldSample sample;
     balls.forEachBallAt(point, [&](const BallBlocks::Ball& ball, const glm::dvec3& offset, double root) {
-        const double slope = double(ball.kernel.slope);
         sample.value += root * root;
-        sample.gradient -= 4.0 * root * slope * slope * offset;  // of (peak - slope^2 offset^2)^2
+        sample.gradient -= ball.steepness(4.0 * root, offset);  // of (peak - slope^2 offset^2)^2
     });
     return sample;
 }
@@ -80,8 +79,7 @@ void setAttributes(const View& view, std::span<const glm::vec3> velocities, cons
         double sum = 0.0;
         balls.forEachBallAt(mesh.positions[k],
                             [&](const BallBlocks::Ball& ball, const glm::dvec3& offset, double root) {
-                                const double slope = double(ball.kernel.slope);
-                                gradient -= root * slope * slope * offset;
+                                gradient -= ball.steepness(root, offset);
                                 color += root * root * glm::dvec3(view.particles[ball.particle].color);
                                 velocity += root * root * glm::dvec3(velocities[ball.particle]);
                                 sum += root * root;

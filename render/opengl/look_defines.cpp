@@ -63,6 +63,7 @@ Defines lookDefines(const PreparedView& prepared, TileClass kind) {
     addIf(!prepared.viewSpheres.empty(), "SPHERES", defines);
     addIf(prepared.hasMetaballs, "METABALLS", defines);
     addIf(prepared.hasMetaballs && hasOneReach(prepared.metaballs), "ONE_REACH", defines);
+    addIf(prepared.hasMetaballs && !prepared.metaballs.ellipsoids.empty(), "ELLIPSOIDS", defines);
     if (occludesObstacles(prepared)) {
         defines.emplace_back("OBSTACLE_OCCLUSION");
         defines.push_back(fmt::format("SKY_SAMPLE_OFFSET {:.2f}", kSkySampleOffset));

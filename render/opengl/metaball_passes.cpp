@@ -27,7 +27,8 @@ Defines withPointSize(Defines defines, int pixels) {
 }  // namespace
 
 bool hasOneReach(const MetaballScene& scene) {
-    return std::ranges::all_of(scene.balls, [&](const Metaball& ball) { return ball.reach == scene.balls[0].reach; });
+    return scene.ellipsoids.empty() &&
+           std::ranges::all_of(scene.balls, [&](const Metaball& ball) { return ball.reach == scene.balls[0].reach; });
 }
 
 BallBuffers::BallBuffers(const Gl& gl)
@@ -38,12 +39,17 @@ BallBuffers::BallBuffers(const Gl& gl)
       tiles_(gl, GL_R32I) {}
 
 void BallBuffers::upload(const MetaballScene& scene) {
-    const std::size_t texels = hasOneReach(scene) ? 1 : 2;
+    const bool areEllipsoids = !scene.ellipsoids.empty();
+    const std::size_t texels = areEllipsoids ? 3 : hasOneReach(scene) ? 1 : 2;
     std::vector<glm::vec4> balls(texels * scene.balls.size());
     tbb::parallel_for(std::size_t{0}, scene.balls.size(), [&](std::size_t k) {
         const Metaball& ball = scene.balls[k];
         balls[texels * k] = glm::vec4(ball.center, ball.peak);
         if (texels == 2) balls[2 * k + 1] = {ball.reach, ball.slope * ball.slope, 0.0F, 0.0F};
+        if (!areEllipsoids) return;
+        const SymmetricMatrix<float>& form = scene.ellipsoids[k].form;
+        balls[3 * k + 1] = {form.xx, form.yy, form.zz, ball.reach};
+        balls[3 * k + 2] = {form.xy, form.xz, form.yz, 0.0F};
     });
     std::vector<SphereAttributes> attributes(scene.attributes.size());
     tbb::parallel_for(std::size_t{0}, attributes.size(), [&](std::size_t k) {

@@ -15,7 +15,7 @@
 
 namespace render {
 
-/// Whether the kernels of all balls have the same radius.
+/// Whether the kernels of all balls are round and have the same radius.
 bool hasOneReach(const MetaballScene& scene);
 
 /// Metaballs in OpenGL's memory as a camera or the light sees them.

@@ -42,6 +42,15 @@ Interval tangents(double a, double z, double r) {
     return {(a * z - root) / front, (a * z + root) / front};
 }
 
+/// The same of an ellipse, whose half width along a direction n is sqrt(n^T s n): the line x = p z touches it where
+/// (a - p z)^2 = s_xx - 2 p s_xz + p^2 s_zz, a quadratic equation for p.
+Interval ellipseTangents(double a, double z, double sxx, double sxz, double szz) {
+    const double front = z * z - szz;
+    const double middle = a * z - sxz;
+    const double root = std::sqrt(std::max(0.0, middle * middle - front * (a * a - sxx)));
+    return {(middle - root) / front, (middle + root) / front};
+}
+
 glm::vec3 anyPerpendicular(glm::vec3 direction) {
     const glm::vec3 other = std::abs(direction.y) < 0.9F ? glm::vec3(0.0F, 1.0F, 0.0F) : glm::vec3(1.0F, 0.0F, 0.0F);
     return normalize(cross(direction, other));
@@ -96,6 +105,20 @@ std::optional<Rect> pixelsTouchedBySphere(const CameraFrame& frame, glm::vec3 ce
     // The tangents of a sphere that nearly touches the eye's plane are too imprecise.
     if (at.z <= 1.0001 * r) return Rect{0, 0, frame.width - 1, frame.height - 1};
     return pixelsOf(frame, tangents(at.x, at.z, r), tangents(at.y, at.z, r), 1.0);
+}
+
+std::optional<Rect> pixelsTouchedByEllipsoid(const CameraFrame& frame, glm::vec3 center,
+                                             const SymmetricMatrix<float>& spread) {
+    const glm::dvec3 at(center);
+    const SymmetricMatrix<double> s{double(spread.xx), double(spread.yy), double(spread.zz),
+                                    double(spread.xy), double(spread.xz), double(spread.yz)};
+    const glm::dvec3 half(std::sqrt(s.xx), std::sqrt(s.yy), std::sqrt(s.zz));
+    if (at.z + half.z <= 0.0) return std::nullopt;
+    if (!frame.perspective) return pixelsOf(frame, {at.x - half.x, at.x + half.x}, {at.y - half.y, at.y + half.y}, 1.0);
+    // As of spheres.
+    if (at.z <= 1.0001 * half.z) return Rect{0, 0, frame.width - 1, frame.height - 1};
+    return pixelsOf(frame, ellipseTangents(at.x, at.z, s.xx, s.xz, s.zz), ellipseTangents(at.y, at.z, s.yy, s.yz, s.zz),
+                    1.0);
 }
 
 }  // namespace render

@@ -8,6 +8,7 @@
 
 #include <glm/glm.hpp>
 
+#include "render/picture/symmetric_matrix.h"
 #include "render/picture/view.h"
 
 namespace render {
@@ -62,5 +63,10 @@ std::optional<Rect> pixelsTouchedByBox(const CameraFrame& frame, glm::vec3 minim
 /// the eye or outside of the picture; every pixel when it reaches the eye's plane, or nearly.
 /// @param center  in view coordinates
 std::optional<Rect> pixelsTouchedBySphere(const CameraFrame& frame, glm::vec3 center, float radius);
+
+/// The same for an ellipsoid. @param center  in view coordinates
+/// @param spread  in view coordinates: along a direction n the ellipsoid reaches sqrt(n^T spread n) from its center, m
+std::optional<Rect> pixelsTouchedByEllipsoid(const CameraFrame& frame, glm::vec3 center,
+                                             const SymmetricMatrix<float>& spread);
 
 }  // namespace render

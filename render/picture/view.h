@@ -65,8 +65,9 @@ struct Edge {
 
 /// How particles become the balls of the metaball field.
 enum class Skin {
-    plain,  ///< balls at the particles, with weight 1: particles stay visible as bumps
-    smooth  ///< balls moved and weighted by their neighbors: a smooth surface, as of a liquid
+    plain,       ///< balls at the particles, with weight 1: particles stay visible as bumps
+    smooth,      ///< balls moved and weighted by their neighbors: a smooth surface, as of a liquid
+    anisotropic  ///< balls of a smooth skin stretched along the surface and flattened across it: smoother still
 };
 
 /// How far a ball of a smooth skin is moved from its particle toward the weighted mean position of the neighbors, as a
@@ -76,6 +77,14 @@ inline constexpr float kSkinPull = 0.85F;
 /// Smallest radius that a neighbor counts as where it ends the kernel of a ball of a smooth skin, as a share of that
 /// ball's radius. Chosen: rays find the surface of so steep a kernel in single precision.
 inline constexpr float kSkinLeastSize = 0.01F;
+
+/// How much of the shape of an anisotropic skin's ball is that of its neighbors' covariance; the rest is round. Chosen:
+/// with more, balls in sheets of one layer get thinner than the sheet is.
+inline constexpr float kSkinStretch = 0.9F;
+
+/// How many neighbors it takes to stretch a ball of an anisotropic skin: the weight of a round covariance that is added
+/// to theirs. Chosen: particles that come or go change a ball gradually, and a ball with few neighbors is nearly round.
+inline constexpr float kSkinRoundness = 2.0F;
 
 /// The surface of metaballs is where the field, the sum over all balls of w (1 - d^2/R^2)^2 for d < R, has the value
 /// (1 - 1/reach^2)^2. d is the distance from the ball's center, w its weight and R the radius of its kernel. In a plain
@@ -93,6 +102,19 @@ inline constexpr float kSkinLeastSize = 0.01F;
 /// max(r + (reach - 1) (1 + 2 s/r) s, d - s), where s is no less than kSkinLeastSize r. So the kernel ends before the
 /// small particle until that is about as near as its own kernel reaches. The ball's weight is (sum of k)^(-3/4), times
 /// ((1 - 1/reach^2) / (1 - r^2/R^2))^2, which keeps the surface of a ball alone at r however short its kernel is.
+///
+/// Anisotropic skin, after Yu and Turk 2013: the balls are ellipsoids. The term of a ball is w (1 - d^T M d)^2 where
+/// d^T M d < 1, with d the vector from its center and the weight w of the smooth skin. Let K be k with 2 Q in place of
+/// Q, and m of a particle the vector to the mean position of all particles weighted by K, itself included. A ball is
+/// moved from its particle by its m less the mean of the m of all particles weighted by k. The mean over twice the
+/// distance evens out what is narrower than that; what is taken off is what a bulge of the liquid would sink in by.
+///
+/// The ball's shape follows the covariance of the neighbors: let C be the sum of K e e^T, with e the vector to a
+/// particle less m, plus kSkinRoundness (2 reach r)^2/9 times the identity I, all divided by a third of its trace. (A
+/// ninth is the covariance in a body of liquid. The surface around a particle makes C flat along its normal.) With the
+/// kernel's radius R of the smooth skin and u = (R - r)/((reach - 1) r), which is 1 unless small particles shorten the
+/// kernel, let s = kSkinStretch u^2 and D = (1 - s) I + s C. Then the inverse of M is R^2 D^2 / det(D)^(2/3): an
+/// ellipsoid as large as the ball of radius R, with the axes of the covariance, and round for a particle alone.
 struct MetaballField {
     float reach = 2.5F;  ///< radius of a ball's field in particle radii, from 1.2 to 4
     Skin skin = Skin::plain;

@@ -48,7 +48,8 @@ DepthMapGrid depthMapGrid(const LightBasis& basis, const View& view, std::span<c
         const float radius = view.particles[k].radius;
         if (radius <= 0.0F) continue;
         const glm::vec3 center = basis.toLightSpace(balls[k].center - view.camera.eye);
-        bounds.add(center - balls[k].reach, center + balls[k].reach);
+        const glm::vec3 half = extentAlong(view, balls[k], basis.u, basis.v, basis.toLight);
+        bounds.add(center - half, center + half);
         smallest = std::min(smallest, radius);
     }
     if (bounds.low.x > bounds.high.x) return {};

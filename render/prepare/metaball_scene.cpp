@@ -19,6 +19,39 @@ std::vector<std::size_t> particlesWithRadius(const View& view) {
     return found;
 }
 
+/// A matrix in the axes of a camera, in double precision because it is inverted.
+SymmetricMatrix<double> inView(const CameraFrame& frame, const SymmetricMatrix<float>& m) {
+    const SymmetricMatrix<double> world{double(m.xx), double(m.yy), double(m.zz),
+                                        double(m.xy), double(m.xz), double(m.yz)};
+    return inAxes(world, glm::dvec3(frame.right), glm::dvec3(frame.up), glm::dvec3(frame.forward));
+}
+
+SymmetricMatrix<float> rounded(const SymmetricMatrix<double>& m) {
+    return {float(m.xx), float(m.yy), float(m.zz), float(m.xy), float(m.xz), float(m.yz)};
+}
+
+/// The square root of an upper bound of a matrix' eigenvalues: of the eighth root of the sum of their eighth powers.
+float longestAxis(const SymmetricMatrix<double>& spread) {
+    const double scale = spread.trace();
+    const SymmetricMatrix<double> eighth = squared(squared(squared(spread * (1.0 / scale))));
+    return static_cast<float>(std::sqrt(scale * std::sqrt(std::sqrt(std::sqrt(eighth.trace())))));
+}
+
+/// Gives the balls of an anisotropic skin their shapes.
+/// @param pixels  set to the bounds of the pixels that each ball may touch
+void shapeBalls(std::span<const SkinBall> skin, MetaballScene& scene, std::vector<Rect>& pixels) {
+    scene.ellipsoids.resize(scene.balls.size());
+    pixels.resize(scene.balls.size());
+    tbb::parallel_for(std::size_t{0}, scene.balls.size(), [&](std::size_t k) {
+        Metaball& ball = scene.balls[k];
+        const SymmetricMatrix<double> spread = inView(scene.frame, skin[scene.particles[k]].spread);
+        scene.ellipsoids[k] = {rounded(inverse(spread) * double(ball.peak)), longestAxis(spread)};
+        // A little longer, for the rounding of what is cast.
+        ball.reach = 1.00001F * static_cast<float>(std::sqrt(spread.zz));
+        pixels[k] = pixelsTouchedByEllipsoid(scene.frame, ball.center, rounded(spread)).value_or(Rect{});
+    });
+}
+
 }  // namespace
 
 MetaballScene metaballScene(const CameraFrame& frame, const View& view, std::span<const SkinBall> balls) {
@@ -31,6 +64,8 @@ MetaballScene metaballScene(const CameraFrame& frame, const View& view, std::spa
         const BallKernel kernel = kernelOf(ball);
         scene.balls[k] = {frame.toView(ball.center), ball.reach, kernel.peak, kernel.slope};
     });
+    std::vector<Rect> pixels;
+    if (view.field.skin == Skin::anisotropic) shapeBalls(balls, scene, pixels);
     std::vector<ViewSphere> kernels(scene.balls.size());
     float smallest = std::numeric_limits<float>::max();
     double sum = 0.0;
@@ -46,7 +81,8 @@ MetaballScene metaballScene(const CameraFrame& frame, const View& view, std::spa
     scene.smallestRadius = std::max(smallest, static_cast<float>(0.1 * mean)) / view.field.reach;
     scene.step = 0.5F * scene.smallestRadius;
     scene.threshold = surfaceThreshold(view.field);
-    scene.tiles = binToTiles(frame, kernels, pixelBounds(frame, kernels));
+    if (scene.ellipsoids.empty()) pixels = pixelBounds(frame, kernels);
+    scene.tiles = binToTiles(frame, kernels, pixels);
     return scene;
 }
 
@@ -71,7 +107,10 @@ SmoothnessLimits smoothnessLimits(const MetaballScene& scene) {
     // of a single ball at the threshold has the second derivative -4 sqrt(threshold) / reach^2 per square radius.
     const float root = std::sqrt(scene.threshold);  // equals 1 - 1 / reach^2, hence 1 - root = 1 / reach^2
     const float missed = 0.125F * root * (1.0F - root);
-    return {0.02F * scene.smallestRadius, scene.threshold - missed - kSteepest * pixel / scene.smallestRadius};
+    // Across a flat ellipsoid the field rises and bends the more steeply. Chosen: few axes are shorter than half.
+    const float flat = scene.ellipsoids.empty() ? 1.0F : 2.0F;
+    return {0.02F * scene.smallestRadius,
+            scene.threshold - flat * flat * missed - flat * kSteepest * pixel / scene.smallestRadius};
 }
 
 }  // namespace render

@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "render/picture/camera_frame.h"
+#include "render/picture/symmetric_matrix.h"
 #include "render/picture/view.h"
 #include "render/prepare/ambient_occlusion.h"
 #include "render/prepare/skin.h"
@@ -16,12 +17,20 @@
 
 namespace render {
 
-/// One ball of the field in view coordinates. Its kernel is (peak - d^2 slope^2)^2 up to the distance d = reach.
+/// One ball of the field in view coordinates. Its kernel is (peak - d^2 slope^2)^2 up to the distance d = reach; in an
+/// anisotropic skin it is that of its ellipsoid.
 struct Metaball {
     glm::vec3 center{0.0F};
-    float reach = 1.0F;  ///< radius of the kernel, m
+    float reach = 1.0F;  ///< how far the kernel reaches along the view depth, m: its radius if it is round
     float peak = 1.0F;   ///< square root of the ball's weight
-    float slope = 1.0F;  ///< fourth root of the weight over the reach, 1/m
+    float slope = 1.0F;  ///< fourth root of the weight over the reach, 1/m; of no meaning for an ellipsoid
+};
+
+/// The shape of a ball of an anisotropic skin. Its kernel is (peak - d^T form d)^2, d the vector from its center in
+/// view coordinates, where that root is above zero.
+struct Ellipsoid {
+    SymmetricMatrix<float> form;  ///< peak times view.h's M, 1/m^2
+    float radius = 1.0F;          ///< of a sphere around the kernel, m; at most a tenth longer than its longest axis
 };
 
 /// What a ball contributes to the surface around it, weighted by its kernel.
@@ -34,6 +43,7 @@ struct BallAttributes {
 struct MetaballScene {
     CameraFrame frame;
     std::vector<Metaball> balls;
+    std::vector<Ellipsoid> ellipsoids;       ///< shape of each ball of an anisotropic skin; empty in other skins
     std::vector<std::size_t> particles;      ///< index of the particle that each ball stands for
     std::vector<BallAttributes> attributes;  ///< attributes of each ball; without them, rays find depths only
     bool hasSky = false;                     ///< whether rays interpolate the balls' sky visibility

@@ -1,12 +1,13 @@
-// The balls whose field is the surface of metaballs: the particles themselves, or for a smooth skin what view.h
-// (MetaballField) makes of them, and the law of that field. Called by the preparation of a view and by the mesh of the
-// surface.
+// The balls whose field is the surface of metaballs: the particles themselves, or what view.h
+// (MetaballField) makes of them in other skins, and the law of that field. Called by the preparation of a view and by
+// the mesh of the surface.
 #pragma once
 
 #include <vector>
 
 #include <glm/glm.hpp>
 
+#include "render/picture/symmetric_matrix.h"
 #include "render/picture/view.h"
 
 namespace render {
@@ -16,6 +17,9 @@ struct SkinBall {
     glm::vec3 center{0.0F};
     float weight = 1.0F;  ///< factor of its kernel in the field
     float reach = 1.0F;   ///< radius of its kernel, m
+    /// Of an anisotropic skin the inverse of view.h's M, m^2: along a direction n the kernel ends at sqrt(n^T spread
+    /// n).
+    SymmetricMatrix<float> spread{};
 };
 
 /// The kernel of a ball: root(d^2)^2 at distances d below its reach, and 0 beyond.
@@ -34,12 +38,15 @@ struct BallKernel {
 /// The kernel of a ball with a weight and a reach above 0.
 BallKernel kernelOf(const SkinBall& ball);
 
+/// How far a ball's kernel reaches along each of three axes, m. @param x, y, z  at right angles, of unit length
+glm::vec3 extentAlong(const View& view, const SkinBall& ball, glm::vec3 x, glm::vec3 y, glm::vec3 z);
+
 /// The value of the field at the surface of metaballs.
 float surfaceThreshold(const MetaballField& field);
 
 /// Makes one ball for each particle; that of a particle whose radius is 0 means nothing. Where no other particle is in
-/// reach, the ball stays at its particle, with weight 1 and a kernel of reach * radius. The result depends on the view
-/// alone, bit for bit, not on the number of threads or the instruction set.
+/// reach, the ball stays at its particle, with weight 1 and a round kernel of reach * radius. The result depends on the
+/// view alone, bit for bit, not on the number of threads or the instruction set.
 std::vector<SkinBall> skinOf(const View& view);
 
 }  // namespace render

@@ -224,7 +224,7 @@ Extent boxAround(std::span<const Ball> balls, std::span<const std::uint8_t> flag
 /// Adds to the reach of each ball the width of soft shadows, and the distance from which particles hide the sky from
 /// others or pull the balls of a smooth skin.
 /// @param seen  flags of the particles that are seen
-void addInfluence(std::span<const std::uint8_t> seen, std::span<Ball> balls) {
+void addInfluence(std::span<const std::uint8_t> seen, Skin skin, std::span<Ball> balls) {
     double sum = 0.0;
     double count = 0.0;
     float largest = 0.0F;
@@ -235,8 +235,10 @@ void addInfluence(std::span<const std::uint8_t> seen, std::span<Ball> balls) {
         ++count;
     }
     // Ten cubes of shading_model.h, each at most 2.4 mean radii wide, along each of the three axes; and twice the reach
-    // of the field, because a particle that is not seen may pull one that is.
-    const float influence = static_cast<float>(42.0 * sum / std::max(count, 1.0)) + 2.0F * largest;
+    // of the field, because a particle that is not seen may pull one that is. In an anisotropic skin it may from twice
+    // as far, also through a third one, and the ball that it pulls may be some three times as long as its reach.
+    const float pull = skin == Skin::anisotropic ? 6.0F : 2.0F;
+    const float influence = static_cast<float>(42.0 * sum / std::max(count, 1.0)) + pull * largest;
     for (Ball& ball : balls) ball.reach = 1.61F * ball.radius + influence;  // 1.61: as in light_space.cpp
 }
 
@@ -259,7 +261,7 @@ std::vector<std::uint8_t> flagsOfKept(const View& view, glm::vec3 eye, VisibleVo
     visible.addReceiver(box);
     for (std::size_t k = particles; k < balls.size(); ++k)
         if (seen[k] != 0) visible.addReceiver({balls[k].center - balls[k].radius, balls[k].center + balls[k].radius});
-    addInfluence(seenParticles, balls);
+    addInfluence(seenParticles, view.field.skin, balls);
     const Extent around = surroundings(box);
     return flagsOf(balls, [&](const Ball& ball) { return contains(around, ball.center) || visible.isChangedBy(ball); });
 }

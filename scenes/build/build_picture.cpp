@@ -64,6 +64,11 @@ void readColors(Section& section, const BuildContext& context, Look& look) {
     look.rampHigh = section.numbers("color_range")[1];
 }
 
+render::Skin skinNamed(std::string_view name) {
+    if (name == "anisotropic") return render::Skin::anisotropic;
+    return name == "smooth" ? render::Skin::smooth : render::Skin::plain;
+}
+
 /// Reads the keys of [look] that all frames share: lights, background, ground and the surface of the particles.
 void readView(const Section& section, render::View& view) {
     const auto number = [&](std::string_view name) { return toFloat(section.number(name)); };
@@ -80,7 +85,7 @@ void readView(const Section& section, render::View& view) {
         view.ground = render::Ground{.color = color("ground_color"), .fadeDistance = number("ground_fade")};
     view.style = section.string("style") == "metaballs" ? render::Style::metaballs : render::Style::spheres;
     view.field.reach = number("metaball_reach");
-    view.field.skin = section.string("skin") == "smooth" ? render::Skin::smooth : render::Skin::plain;
+    view.field.skin = skinNamed(section.string("skin"));
     view.surface.specular = number("specular");
     view.surface.glossExponent = static_cast<int>(section.integer("gloss"));
     view.surface.reflection = number("reflection");

@@ -78,9 +78,11 @@ std::vector<Key> lightKeys() {
             .defaultsTo("2.5")
             .within({1.2, 4.0}),
         key("skin", Type::choice, "",
-            "surface of metaballs: around the particles as they are, or around particles averaged with their neighbors")
+            "surface of metaballs: around the particles as they are, around particles averaged with their neighbors, "
+            "or around "
+            "ellipsoids stretched along the surface, which is smoother still")
             .defaultsTo("\"plain\"")
-            .oneOf({"plain", "smooth"}),
+            .oneOf({"plain", "smooth", "anisotropic"}),
     };
 }
 

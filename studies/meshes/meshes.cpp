@@ -110,7 +110,7 @@ MeshRow measured(const MeshStudySettings& settings, const render::View& view, do
 std::vector<MeshRow> measureMeshes(const MeshStudySettings& settings,
                                    const std::function<void(const std::vector<MeshRow>&)>& listener) {
     std::vector<MeshRow> rows;
-    for (const render::Skin skin : {render::Skin::plain, render::Skin::smooth}) {
+    for (const render::Skin skin : {render::Skin::plain, render::Skin::smooth, render::Skin::anisotropic}) {
         const render::View view = liquidOf(damBreakView(settings.particles, render::Style::metaballs), skin);
         for (const double cell : settings.cells) {
             rows.push_back(measured(settings, view, cell));

@@ -14,11 +14,10 @@
 namespace oracle {
 namespace {
 
-/// The square root of a ball's kernel: 1 - d^2/R^2 at a distance d from its center, and 0 beyond its reach R.
+/// The square root of a ball's kernel: 1 - d^T M d at a vector d from its center, and 0 where d^T M d is above 1.
 double kernelRoot(const Ball& ball, const dvec3& point) {
     const dvec3 offset = point - ball.center;
-    const double squared = glm::dot(offset, offset);
-    return squared < ball.reach * ball.reach ? 1.0 - squared / (ball.reach * ball.reach) : 0.0;
+    return std::max(0.0, 1.0 - glm::dot(offset, ball.form * offset));
 }
 
 /// Contribution of a ball to the metaball field at a point.
@@ -27,39 +26,56 @@ double kernel(const Ball& ball, const dvec3& point) {
     return ball.weight * root * root;
 }
 
-/// A ball that a ray comes within reach of, and the part of the ray within its reach.
+/// A ball that a ray comes within reach of, and the part of the ray within its reach. At a distance t along the ray
+/// d^T M d = least + curvature (t - along)^2.
 struct CrossedBall {
-    Foot foot;
-    double reach = 0.0;
+    double along = 0.0;
+    double least = 0.0;
+    double curvature = 1.0;  ///< direction^T M direction, 1/m^2
     double weight = 1.0;
     Interval interval;
 };
 
+/// Nothing if the ray misses or only touches the ball's reach. The distance `along` is found in two steps, so that d is
+/// short and loses no digits: to the foot of the perpendicular, and from there.
+std::optional<CrossedBall> crossed(const Ball& ball, const Ray& ray) {
+    const double foot = footOf(ray, ball.center).along;
+    const dvec3 atFoot = ray.origin + foot * ray.direction - ball.center;
+    const dvec3 across = ball.form * ray.direction;
+    const double curvature = glm::dot(ray.direction, across);
+    const double further = -glm::dot(atFoot, across) / curvature;
+    const dvec3 off = atFoot + further * ray.direction;
+    const double least = glm::dot(off, ball.form * off);
+    if (least >= 1.0) return std::nullopt;
+    const double half = std::sqrt((1.0 - least) / curvature);
+    const double along = foot + further;
+    return CrossedBall{along, least, curvature, ball.weight, {along - half, along + half}};
+}
+
 std::vector<CrossedBall> ballsCrossed(const Scene& scene, const Indices& near, const Ray& ray) {
-    std::vector<CrossedBall> crossed;
+    std::vector<CrossedBall> found;
     for (const std::uint32_t k : near) {
-        const Ball& ball = scene.balls[k];
-        const Foot foot = footOf(ray, ball.center);
-        const std::optional<Interval> inside = sphereInterval(foot, ball.reach);
-        if (inside && inside->exit > 0.0) crossed.push_back({foot, ball.reach, ball.weight, *inside});
+        const std::optional<CrossedBall> ball = crossed(scene.balls[k], ray);
+        if (ball && ball->interval.exit > 0.0) found.push_back(*ball);
     }
-    return crossed;
+    return found;
 }
 
 /// The metaball field minus the threshold on a part of a ray, as a polynomial in a parameter s that runs from -1 (at
 /// `enter`) to 1 (at `exit`). No ball's reach begins or ends within the part. With
-///   half = (exit - enter)/2  and  e = (enter + exit)/2 - foot.along,
-/// a ball's d^2 = offSquared + (e + half s)^2, so that
-///   1 - d^2/R^2 = a + b s + c s^2   with   a = 1 - (offSquared + e^2)/R^2,  b = -2 e half/R^2,  c = -half^2/R^2
+///   half = (exit - enter)/2  and  e = (enter + exit)/2 - along,
+/// a ball's d^T M d = least + curvature (e + half s)^2, so that
+///   1 - d^T M d = a + b s + c s^2
+///   with   a = 1 - least - curvature e^2,  b = -2 curvature e half,  c = -curvature half^2
 /// and the kernel is the square of this.
 Quartic fieldAlong(const std::vector<CrossedBall>& balls, double threshold, const Interval& part) {
     const double half = 0.5 * (part.exit - part.enter);
     Quartic sum{-threshold, 0.0, 0.0, 0.0, 0.0};
     for (const CrossedBall& ball : balls) {
         if (ball.interval.enter > part.enter || ball.interval.exit < part.exit) continue;
-        const double e = 0.5 * (part.enter + part.exit) - ball.foot.along;
-        const double scale = 1.0 / (ball.reach * ball.reach);
-        const double a = 1.0 - (ball.foot.offSquared + e * e) * scale;
+        const double e = 0.5 * (part.enter + part.exit) - ball.along;
+        const double scale = ball.curvature;
+        const double a = 1.0 - ball.least - e * e * scale;
         const double b = -2.0 * e * half * scale;
         const double c = -half * half * scale;
         sum[0] += ball.weight * a * a;
@@ -95,7 +111,7 @@ double firstFieldDistance(const Scene& scene, const Indices& near, const Ray& ra
 }
 
 /// The point where a ray meets the metaball surface, with its normal, color and sky visibility. The gradient of a
-/// ball's kernel is -4 (1 - d^2/R^2) (x - c)/R^2, of which the factor 4 drops out of the normal.
+/// ball's kernel is -4 (1 - d^T M d) M d, of which the factor 4 drops out of the normal.
 Hit hitField(const Scene& scene, const Indices& near, const Ray& ray) {
     const render::View& view = scene.view;
     const double distance = firstFieldDistance(scene, near, ray);
@@ -111,7 +127,7 @@ Hit hitField(const Scene& scene, const Indices& near, const Ray& ray) {
         const double root = kernelRoot(ball, hit.point);
         if (root == 0.0) continue;
         const double weight = kernel(ball, hit.point);
-        downhill += ball.weight * root / (ball.reach * ball.reach) * (hit.point - ball.center);
+        downhill += ball.weight * root * (ball.form * (hit.point - ball.center));
         colorSum += weight * dvec3(view.particles[k].color);
         kernelSum += weight;
         for (std::size_t side = 0; side < 6; ++side) skySum[side] += weight * scene.sky.ofParticle(k)[side];

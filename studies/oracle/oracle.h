@@ -33,11 +33,12 @@ namespace oracle {
 /// A ball that contributes to the metaball field.
 struct Ball {
     dvec3 center{0.0};
-    double reach = 0.0;  ///< distance at which the contribution ends, m: R of shading_model.h
+    double reach = 0.0;  ///< greatest distance at which the contribution ends, m: R of view.h if the ball is round
     double weight = 1.0;
+    glm::dmat3 form{1.0};  ///< M of view.h, 1/m^2, in an anisotropic skin; else I/R^2
 };
 
-/// The balls of a view's metaball field, one for each particle, moved and weighted if its skin is smooth.
+/// The balls of a view's metaball field, one for each particle, as view.h makes them for its skin.
 std::vector<Ball> ballsOf(const render::View& view);
 
 /// A view with all that is computed once for all rays. Holds a reference to the view.

@@ -68,6 +68,7 @@ const char* nameOf(render::Quality quality) {
 }
 
 const char* nameOf(render::Skin skin) {
+    if (skin == render::Skin::anisotropic) return "anisotropic";
     return skin == render::Skin::plain ? "plain" : "smooth";
 }
 

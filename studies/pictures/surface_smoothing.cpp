@@ -106,7 +106,7 @@ double fieldVolume(const render::View& view, double spacing) {
 std::vector<SmoothingRow> measureSmoothing(const SmoothingSettings& settings,
                                            const RowsListener<SmoothingRow>& listener) {
     std::vector<SmoothingRow> rows;
-    for (const render::Skin skin : {render::Skin::plain, render::Skin::smooth}) {
+    for (const render::Skin skin : {render::Skin::plain, render::Skin::smooth, render::Skin::anisotropic}) {
         SmoothingRow row = shapeOf(settings, skin);
         for (const std::size_t particles : settings.particles) {
             row.particles = particles;

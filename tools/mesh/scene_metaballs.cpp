@@ -48,6 +48,7 @@ render::View metaballsOf(const scenes::Scene& scene, const engine::Simulation& s
 }
 
 const char* nameOf(render::Skin skin) {
+    if (skin == render::Skin::anisotropic) return "anisotropic";
     return skin == render::Skin::smooth ? "smooth" : "plain";
 }
 

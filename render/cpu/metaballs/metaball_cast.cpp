@@ -30,6 +30,8 @@ constexpr float kSmallStep = 1e-2F;
 constexpr int kPeakBisections = 4;  // number of bisections for the field's maximum between two samples
 
 /// A vector of rays that advances through the balls of a tile.
+/// @tparam kIsAnisotropic  whether balls are ellipsoids
+template <bool kIsAnisotropic>
 class RayVector {
  public:
     /// @param active    the lanes that are cast
@@ -111,7 +113,11 @@ class RayVector {
             if (hn::AllTrue(D(), root <= zero)) continue;
             const Metaball& ball = scene_.balls[near_.index(k)];
             const BallAttributes& attributes = scene_.attributes[near_.index(k)];
-            normal = normal + (point - splat(ball.center)) * (root * splat(ball.slope * ball.slope));
+            const Vec3 off = point - splat(ball.center);
+            if constexpr (kIsAnisotropic)
+                normal = normal + formTimes(scene_.ellipsoids[near_.index(k)].form, off) * root;
+            else
+                normal = normal + off * (root * splat(ball.slope * ball.slope));
             const V kernel = root * root;
             weight = weight + kernel;
             color = color + splat(attributes.color) * kernel;
@@ -219,12 +225,13 @@ class RayVector {
     float gridStart_;   // view depth of sample 0 of the tile, m
     long firstSample_;  // index of the first sample that these rays take
     Ray ray_;
-    NearBalls near_;
+    NearBalls<kIsAnisotropic> near_;
     std::size_t firstAtHit_ = 0;  // first ball that may reach the hit of the nearest lane
     V maxField_;
 };
 
-void castBlock(const MetaballScene& scene, std::size_t tile, RayBlock& block) {
+template <bool kIsAnisotropic>
+void castRays(const MetaballScene& scene, std::size_t tile, RayBlock& block) {
     const D d;
     const std::size_t lanes = hn::Lanes(d);
     if (block.count == 0) return;
@@ -235,13 +242,20 @@ void castBlock(const MetaballScene& scene, std::size_t tile, RayBlock& block) {
         const M active = hn::FirstN(d, std::min(lanes, block.count - first));
         const V minDepth = load(&block.minDepth[first]);
         const ImagePoint at = imagePointAt(scene.frame, load(&block.x[first]), load(&block.y[first]));
-        RayVector rays(scene, balls, storage, at, active, minDepth);
+        RayVector<kIsAnisotropic> rays(scene, balls, storage, at, active, minDepth);
         const V depth = rays.cast(active, minDepth, load(&block.maxDepth[first]));
         store(depth, &block.depth[first]);
         store(rays.maxField(), &block.maxField[first]);
         if (!scene.attributes.empty() && !hn::AllTrue(d, depth < splat(0.0F)))
             rays.writeAttributes(depth, first, block);
     }
+}
+
+void castBlock(const MetaballScene& scene, std::size_t tile, RayBlock& block) {
+    if (scene.ellipsoids.empty())
+        castRays<false>(scene, tile, block);
+    else
+        castRays<true>(scene, tile, block);
 }
 
 }  // namespace HWY_NAMESPACE

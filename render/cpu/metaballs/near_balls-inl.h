@@ -5,6 +5,8 @@
 // with u = (t - t0) s, where t0 is the depth closest to the ball's center, s = |direction| q and w = p - (closest
 // distance)^2 q^2. Hence the field and its derivative:
 //   F = sum max(0, w - u^2)^2,     F' = -4 sum max(0, w - u^2) u s.
+// The root of an ellipsoid's kernel is p - d^T A d: as above with s^2 = direction^T A direction, t0 where d^T A
+// direction is zero, and w = p - d^T A d there.
 #if defined(RENDER_NEAR_BALLS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RENDER_NEAR_BALLS_INL_H_
 #undef RENDER_NEAR_BALLS_INL_H_
@@ -30,6 +32,15 @@ HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 
+/// The product of a ball's form with a vector in each lane.
+HWY_INLINE Vec3 formTimes(const SymmetricMatrix<float>& form, const Vec3& v) {
+    const V xy = splat(form.xy);
+    const V xz = splat(form.xz);
+    const V yz = splat(form.yz);
+    return {splat(form.xx) * v.x + xy * v.y + xz * v.z, xy * v.x + splat(form.yy) * v.y + yz * v.z,
+            xz * v.x + yz * v.y + splat(form.zz) * v.z};
+}
+
 /// The balls of a tile's list as a structure of arrays, front to back. They are copied one vector at a time as they are
 /// asked for: most lie behind the surface, where no ray comes.
 class TileBalls {
@@ -37,6 +48,7 @@ class TileBalls {
     /// Begins with the balls of another tile; the memory is reused.
     void begin(const MetaballScene& scene, std::size_t tile) {
         balls_ = scene.balls;
+        ellipsoids_ = scene.ellipsoids;
         index_ = scene.tiles.itemsOf(tile);
         copied_ = 0;
         // Whole vectors are read, also from the last balls on.
@@ -49,14 +61,14 @@ class TileBalls {
     std::uint32_t index(std::size_t k) const { return index_[k]; }
 
     /// View depth at which the kernel of ball k begins, m.
-    float nearDepth(std::size_t k) {
-        copyThrough(k);
-        return z_[k] - reach_[k];
+    float nearDepth(std::size_t k) const {
+        const Metaball& ball = balls_[index_[k]];
+        return ball.center.z - ball.reach;
     }
 
     struct BallVector {
         Vec3 center;
-        V reach;     ///< radius of the kernel, m
+        V reach;     ///< radius of a sphere around the kernel, m
         V distance;  ///< distance of the center from the origin of view coordinates, m
     };
     /// The vector of balls that begins with ball `first`.
@@ -78,7 +90,7 @@ class TileBalls {
                 x_[next] = ball.center.x;
                 y_[next] = ball.center.y;
                 z_[next] = ball.center.z;
-                reach_[next] = ball.reach;
+                reach_[next] = ellipsoids_.empty() ? ball.reach : ellipsoids_[index_[next]].radius;
             }
             const Vec3 center{hn::LoadU(d, &x_[copied_]), hn::LoadU(d, &y_[copied_]), hn::LoadU(d, &z_[copied_])};
             hn::StoreU(hn::Sqrt(dot(center, center)), d, &distance_[copied_]);
@@ -86,6 +98,7 @@ class TileBalls {
     }
 
     std::span<const Metaball> balls_;
+    std::span<const Ellipsoid> ellipsoids_;
     std::span<const std::uint32_t> index_;
     std::size_t copied_ = 0;  // number of balls copied so far, in whole vectors
     std::vector<float> x_, y_, z_, reach_, distance_;
@@ -166,6 +179,8 @@ struct NearBallStorage {
 /// The balls that the rays of a vector meet, in the order of the tile's list. They are admitted as the rays advance: of
 /// the `count_` admitted balls those before `entered_` begin before the present depth, and those before `left_` end
 /// before it.
+/// @tparam kIsAnisotropic  whether balls are ellipsoids
+template <bool kIsAnisotropic>
 class NearBalls {
  public:
     NearBalls(const MetaballScene& scene, TileBalls& tileBalls, NearBallStorage& storage, const Ray& ray,
@@ -247,10 +262,24 @@ class NearBalls {
         const D d;
         const Metaball& ball = scene_.balls[index];
         const Vec3 toCenter = splat(ball.center) - ray_.origin;
-        const V closest = dot(toCenter, ray_.direction) * inverseSquare_;
-        const Vec3 off = toCenter - ray_.direction * closest;
-        const V w = splat(ball.peak) - dot(off, off) * splat(ball.slope * ball.slope);
-        const V s = length_ * splat(ball.slope);
+        V closest = dot(toCenter, ray_.direction) * inverseSquare_;
+        Vec3 off = toCenter - ray_.direction * closest;
+        V w;
+        V s;
+        if constexpr (kIsAnisotropic) {
+            // From the point nearest to the center, where numbers are small, to the greatest value of the kernel.
+            const SymmetricMatrix<float>& form = scene_.ellipsoids[index].form;
+            const Vec3 along = formTimes(form, ray_.direction);
+            const V square = dot(along, ray_.direction);
+            const V change = dot(off, along) / square;
+            closest = closest + change;
+            off = off - ray_.direction * change;
+            w = splat(ball.peak) - dot(off, formTimes(form, off));
+            s = hn::Sqrt(square);
+        } else {
+            w = splat(ball.peak) - dot(off, off) * splat(ball.slope * ball.slope);
+            s = length_ * splat(ball.slope);
+        }
         float* terms = &storage_.terms[3 * count_ * hn::Lanes(d)];
         store(w, terms);
         store(closest * s, terms + hn::Lanes(d));

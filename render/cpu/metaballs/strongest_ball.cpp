@@ -14,7 +14,11 @@ void HitPoints::add(const CameraFrame& frame, std::size_t pixelIndex, glm::vec2 
     ++count;
 }
 
-void findStrongestBalls(const MetaballScene& scene, std::size_t tile, HitPoints& points) {
+namespace {
+
+/// @param squareOf(index, off)  what is taken from a ball's peak at an offset from its center
+template <typename Square>
+void findStrongest(const MetaballScene& scene, std::size_t tile, HitPoints& points, const Square& squareOf) {
     const auto [nearest, farthest] = std::minmax_element(points.z.begin(), points.z.begin() + points.count);
     std::array<float, kTilePixels> most{};
     std::fill_n(points.ball.begin(), points.count, HitPoints::kNoBall);
@@ -26,14 +30,27 @@ void findStrongestBalls(const MetaballScene& scene, std::size_t tile, HitPoints&
             const float offX = points.x[k] - ball.center.x;
             const float offY = points.y[k] - ball.center.y;
             const float offZ = points.z[k] - ball.center.z;
-            const float square = offX * offX + offY * offY + offZ * offZ;
-            const float root = std::max(ball.peak - square * (ball.slope * ball.slope), 0.0F);
+            const float root = std::max(ball.peak - squareOf(index, glm::vec3(offX, offY, offZ)), 0.0F);
             const float kernel = root * root;
             const bool isStronger = kernel > most[k];
             most[k] = isStronger ? kernel : most[k];
             points.ball[k] = isStronger ? index : points.ball[k];
         }
     }
+}
+
+}  // namespace
+
+void findStrongestBalls(const MetaballScene& scene, std::size_t tile, HitPoints& points) {
+    if (scene.ellipsoids.empty())
+        findStrongest(scene, tile, points, [&](std::uint32_t index, glm::vec3 off) {
+            const float slope = scene.balls[index].slope;
+            return (off.x * off.x + off.y * off.y + off.z * off.z) * (slope * slope);
+        });
+    else
+        findStrongest(scene, tile, points, [&](std::uint32_t index, glm::vec3 off) {
+            return dot(off, scene.ellipsoids[index].form.times(off));
+        });
 }
 
 }  // namespace render

@@ -57,8 +57,8 @@ float entryOf(FourRays rays, float depth, int end, inout int first) {
     for (int k = first; k < end; ++k) {
         Ball ball = ballAt(texelFetch(ballItems, k).x);
         if (ball.center.z - ball.reach > entry) break;
-        vec4 w, closest;
-        approach(rays, ball, w, closest);
+        vec4 w, closest, q;
+        approach(rays, ball, 1.0, w, closest, q);
         bool isMet = greatestOf(w) > 0.0 && ball.center.z + ball.reach > depth;
         entry = isMet ? min(entry, ball.center.z - ball.reach) : entry;
         first = !isMet && k == first ? k + 1 : first;

@@ -7,9 +7,8 @@ struct Window {
 
 // @param inverse  1 / spacing of the samples
 void addBall(FourRays rays, Ball ball, vec4 start, float spacing, float inverse, inout Window at) {
-    vec4 w, closest;
-    approach(rays, ball, w, closest);
-    vec4 q = rays.square * (ball.slopeSquare * spacing * spacing);
+    vec4 w, closest, q;
+    approach(rays, ball, spacing, w, closest, q);
     vec4 off = (start - closest) * inverse;
     vec4 root = w - q * off * off;
     vec4 change = q * (-1.0 - 2.0 * off);

@@ -14,10 +14,9 @@ void refineHits(int tile, int steps, inout FourRays rays) {
         for (int k = rays.first; k < end; ++k) {
             Ball ball = ballAt(texelFetch(ballItems, k).x);
             if (ball.center.z - ball.reach > deepest) break;
-            vec4 w, closest;
-            approach(rays, ball, w, closest);
+            vec4 w, closest, steep;
+            approach(rays, ball, 1.0, w, closest, steep);
             vec4 off = rays.found - closest;
-            vec4 steep = rays.square * ball.slopeSquare;
             vec4 root = max(w - steep * off * off, 0.0);
             field += root * root;
             slope -= 4.0 * root * steep * off;
@@ -67,13 +66,22 @@ FourHits surfaceAt(int tile, FourRays rays) {
         vec4 offY = rays.y - ball.center.y;
 #endif
         vec4 offZ = rays.found - ball.center.z;
+#ifdef ELLIPSOIDS
+        vec4 steepX, steepY, steepZ;
+        formTimes(ball, offX, offY, offZ, steepX, steepY, steepZ);
+        vec4 root = max(ball.peak - (offX * steepX + offY * steepY + offZ * steepZ), 0.0);
+        x += root * steepX;
+        y += root * steepY;
+        z += root * steepZ;
+#else
         vec4 root = max(ball.peak - (offX * offX + offY * offY + offZ * offZ) * ball.slopeSquare, 0.0);
-        vec4 kernel = root * root;
         vec4 steep = root * ball.slopeSquare;
-        field += kernel;
         x += steep * offX;
         y += steep * offY;
         z += steep * offZ;
+#endif
+        vec4 kernel = root * root;
+        field += kernel;
         uvec4 attributes = texelFetch(ballAttributes, index);
         vec3 color = unpackColor(attributes.x);
         red += color.r * kernel;
