@@ -234,7 +234,7 @@ TEST_CASE("Sky visibility depends only a little on where the cubes lie") {
 TEST_CASE("Thread counts change neither sky visibility nor skin") {
     render::View view = cloud(3000);
     view.style = Style::metaballs;
-    view.field.skin = render::Skin::smooth;
+    view.field.skin = GENERATE(render::Skin::smooth, render::Skin::anisotropic);
     std::vector<render::SkinBall> first;
     std::vector<float> open;
     for (const std::size_t threads : {1U, 2U}) {
@@ -248,20 +248,21 @@ TEST_CASE("Thread counts change neither sky visibility nor skin") {
             REQUIRE(skin[k].center == first[k].center);
             REQUIRE(skin[k].weight == first[k].weight);
             REQUIRE(skin[k].reach == first[k].reach);
+            REQUIRE(skin[k].spread == first[k].spread);
         }
     }
 }
 
-TEST_CASE("A smooth skin is the oracle's") {
+TEST_CASE("A smooth skin and an anisotropic one are the oracle's") {
     const By by = GENERATE(from_range(renderers()));
     CAPTURE(by);
     render::View view = denseCloud(Style::metaballs);
-    view.field.skin = render::Skin::smooth;
+    view.field.skin = GENERATE(render::Skin::smooth, render::Skin::anisotropic);
     for (const float reach : {2.0F, 3.5F}) {
         view.field.reach = reach;
         const Difference difference = differenceFromOracle(by, view, kSize, 2);
         INFO("reach " << reach << ": " << difference);
-        CHECK(difference.share <= 10.0 / kPixels);  // outlines
+        CHECK(difference.share <= 12.0 / kPixels);  // outlines; counted once: at most 11
     }
 }
 
