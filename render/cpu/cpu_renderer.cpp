@@ -119,6 +119,8 @@ Occluders CpuRenderer::occludersOf(const PreparedView& view) const {
     occluders.eye = view.frame.eye;
     if (!view.lightGrid.empty()) occluders.spheres = &view.lightGrid;
     if (!depthMap_.empty()) occluders.metaballs = &depthMap_;
+    if (!view.opticalDepth.empty()) occluders.opticalDepth = &view.opticalDepth;
+    if (view.hasMetaballs) occluders.transparency = view.view->surface.medium.transparency;
     if (!meshDepthMap_.empty()) occluders.meshes = &meshDepthMap_;
     if (!view.shadowBoxes.boxes.empty()) occluders.lightBoxes = &view.lightBoxes;
     occluders.boxes = view.shadowBoxes.boxes;
@@ -161,7 +163,8 @@ PictureJob CpuRenderer::pictureJob(const PreparedView& view, const Sampling& sam
             sampling.samples == 1 ? SampleOffsets(&sampling.offset, 1) : kFourSamples,
             geometry,
             occluders.isEmpty() ? std::nullopt : std::optional(occluders),
-            shading};
+            shading,
+            view.hasTransparency ? &view : nullptr};
 }
 
 }  // namespace render

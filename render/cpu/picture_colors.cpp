@@ -11,6 +11,7 @@
 
 #include "render/cpu/metaballs/ray_layout.h"
 #include "render/cpu/raster/box_outlines.h"
+#include "render/cpu/transparency/see_through.h"
 
 namespace render {
 
@@ -61,26 +62,80 @@ void pixelPoints(const PictureJob& job, std::size_t tile, std::span<const std::i
     evaluateShadingPoints(job.geometry, points);
 }
 
-void shadePoints(const PictureJob& job, const ShadingPoints& points, PointColors& colors) {
-    LightVisibility visibility;
-    if (job.occluders) computeLightVisibility(*job.occluders, job.geometry, points, visibility);
-    shade(job.shading, job.geometry, points, job.occluders ? &visibility : nullptr, colors);
+/// The share of an opaque shading point that is not background, as in Layers::color.
+float opacityOf(const Shading& shading, const ShadingPoints& points, std::size_t k) {
+    if (points.hitId[k] == kHitBackground) return 0.0F;
+    if (points.hitId[k] != kHitGround) return 1.0F;
+    const glm::vec3 at{points.position[0][k], points.position[1][k], points.position[2][k]};
+    const glm::vec3 offset = (at - shading.groundCenter) / shading.fadeDistance;
+    const float square = dot(offset, offset);
+    return 1.0F / (1.0F + square * square);
+}
+
+/// What reaches shading points, if anything casts shadows or occludes the sky.
+class PointVisibility {
+ public:
+    PointVisibility(const PictureJob& job, const ShadingPoints& points) : isSet_(job.occluders.has_value()) {
+        if (isSet_) computeLightVisibility(*job.occluders, job.geometry, points, visibility_);
+        isTinted_ = isSet_ && job.occluders->opticalDepth != nullptr;
+    }
+
+    const LightVisibility* get() const { return isSet_ ? &visibility_ : nullptr; }
+    const TileVec3* tint() const { return isTinted_ ? &visibility_.tint : nullptr; }
+
+ private:
+    bool isSet_;
+    bool isTinted_;
+    LightVisibility visibility_;
+};
+
+/// Colors the points behind transparent ones.
+void shadeEnds(const PictureJob& job, SeenThrough& behind, PointColors& colors) {
+    const PointVisibility visibility(job, behind.ends);
+    behind.endShading.tint = visibility.tint();
+    shade(job.shading, job.geometry, behind.ends, visibility.get(), &behind.endShading, colors);
+}
+
+/// Colors points some of which may be transparent.
+/// @param open  receives the share of background that each point shows
+void shadeTransparent(const PictureJob& job, const ShadingPoints& points, PointColors& colors,
+                      std::array<float, kTilePixels>& open) {
+    thread_local SeenThrough behind;
+    const PointVisibility visibility(job, points);
+    findSeenThrough(*job.transparent, job.geometry, points, visibility.get(), behind);
+    behind.shading.tint = visibility.tint();
+    shade(job.shading, job.geometry, points, visibility.get(), &behind.shading, colors);
+    for (std::size_t k = 0; k < points.count; ++k) open[k] = 1.0F - opacityOf(job.shading, points, k);
+    PointColors seen;
+    shadeEnds(job, behind, seen);
+    for (std::size_t end = 0; end < behind.ends.count; ++end) {
+        const std::size_t k = behind.point[end];
+        const glm::vec3 weight = behind.weight[end];
+        for (int channel = 0; channel < 3; ++channel) {
+            float& value = colors.rgb[static_cast<std::size_t>(channel)][k];
+            value = std::min(value + weight[channel] * seen.rgb[static_cast<std::size_t>(channel)][end], 1.0F);
+        }
+        open[k] = (weight.x + weight.y + weight.z) / 3.0F * (1.0F - opacityOf(job.shading, behind.ends, end));
+    }
+}
+
+/// Colors shading points.
+/// @param open  receives the share of background that each point shows, if it is not null
+void shadePoints(const PictureJob& job, const ShadingPoints& points, PointColors& colors,
+                 std::array<float, kTilePixels>* open) {
+    if (job.transparent != nullptr) {
+        std::array<float, kTilePixels> shares;
+        return shadeTransparent(job, points, colors, open != nullptr ? *open : shares);
+    }
+    shade(job.shading, job.geometry, points, PointVisibility(job, points).get(), nullptr, colors);
+    if (open == nullptr) return;
+    for (std::size_t k = 0; k < points.count; ++k) (*open)[k] = 1.0F - opacityOf(job.shading, points, k);
 }
 
 std::array<std::int32_t, kTilePixels> uniformHits(std::int32_t hitId) {
     std::array<std::int32_t, kTilePixels> hitIds;
     hitIds.fill(hitId);
     return hitIds;
-}
-
-/// The share of a shading point that is not background, as in Layers::color.
-float alphaOf(const PictureJob& job, const ShadingPoints& points, std::size_t k) {
-    if (points.hitId[k] == kHitBackground) return 0.0F;
-    if (points.hitId[k] != kHitGround) return 1.0F;
-    const glm::vec3 at{points.position[0][k], points.position[1][k], points.position[2][k]};
-    const glm::vec3 offset = (at - job.shading.groundCenter) / job.shading.fadeDistance;
-    const float square = dot(offset, offset);
-    return 1.0F / (1.0F + square * square);
 }
 
 /// The colors of one tile's pixels, ordered along the Z curve.
@@ -111,10 +166,11 @@ class TileColors {
     /// Gives each pixel the color of what its first sample hits.
     void colorPixels(std::span<const std::int32_t, kTilePixels> hitIds) {
         ShadingPoints points;
+        std::array<float, kTilePixels> open;
         pixelPoints(job_, tile_, hitIds, points);
-        shadePoints(job_, points, colors_);
+        shadePoints(job_, points, colors_, hasAlpha_ ? &open : nullptr);
         if (!hasAlpha_) return;
-        for (std::size_t k = 0; k < kTilePixels; ++k) alpha_[k] = alphaOf(job_, points, k);
+        for (std::size_t k = 0; k < kTilePixels; ++k) alpha_[k] = 1.0F - open[k];
     }
 
     /// Replaces the colors of the pixels that an outline crosses.
@@ -177,7 +233,8 @@ class TileColors {
         }
         evaluateShadingPoints(job_.geometry, points);
         PointColors colors;
-        shadePoints(job_, points, colors);
+        std::array<float, kTilePixels> open;
+        shadePoints(job_, points, colors, hasAlpha_ ? &open : nullptr);
         std::size_t k = 0;
         for (const EdgePixel& edge : pixels) {
             glm::vec3 sum(0.0F);
@@ -185,7 +242,7 @@ class TileColors {
             const std::array<float, 4> shares = sharesOf(hits.subspan(k, edge.hitCount), corner, edge.pixel);
             for (std::size_t hit = 0; hit < edge.hitCount; ++hit, ++k) {
                 sum += shares[hit] * glm::vec3(colors.rgb[0][k], colors.rgb[1][k], colors.rgb[2][k]);
-                if (hasAlpha_) alpha += shares[hit] * alphaOf(job_, points, k);
+                if (hasAlpha_) alpha += shares[hit] * (1.0F - open[k]);
             }
             const std::size_t rank = kZCurveTables.rank[edge.pixel];
             for (std::size_t channel = 0; channel < 3; ++channel)

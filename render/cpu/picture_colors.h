@@ -11,6 +11,7 @@
 #include "render/cpu/lighting/shading_points.h"
 #include "render/cpu/shading/shade.h"
 #include "render/cpu/tile_samples.h"
+#include "render/prepare/prepared_view.h"
 
 namespace render {
 
@@ -21,6 +22,7 @@ struct PictureJob {
     ShadingGeometry geometry;
     std::optional<Occluders> occluders;  ///< empty if nothing casts shadows or occludes the sky
     const Shading& shading;
+    const PreparedView* transparent = nullptr;  ///< the view if it has transparent bodies, else null
 };
 
 /// A picture that is the mean of several samplings, which are colored one after another.

@@ -31,6 +31,9 @@ void addLight(const PreparedView& prepared, TileClass kind, Defines& defines) {
     const bool isOccluded = prepared.hasOcclusion() && kind != TileClass::openGround;
     addIf(isOccluded, "OCCLUSION", defines);
     addIf(!prepared.glowGrid.empty() && kind != TileClass::openGround, "GLOW_LIGHT", defines);
+    const bool isThroughMetaballs = prepared.hasMetaballs && view.surface.medium.isTransparent();
+    addIf(isThroughMetaballs, "METABALL_MEDIUM", defines);
+    addIf(castsShadows && !prepared.opticalDepth.empty(), "LIGHT_TINT", defines);
     addIf(isOccluded && view.ground, "GROUND_OCCLUSION", defines);
 }
 
@@ -67,6 +70,11 @@ Defines lookDefines(const PreparedView& prepared, TileClass kind) {
     if (occludesObstacles(prepared)) {
         defines.emplace_back("OBSTACLE_OCCLUSION");
         defines.push_back(fmt::format("SKY_SAMPLE_OFFSET {:.2f}", kSkySampleOffset));
+    }
+    if (prepared.hasTransparency) {
+        defines.emplace_back("TRANSPARENCY");
+        addIf(!view.boxObstacles.empty(), "VIEW_BOXES", defines);
+        addIf(!prepared.meshes.empty(), "VIEW_MESHES", defines);
     }
     if (kind == TileClass::objects) return defines;
     addIf(!view.boxObstacles.empty(), "BOXES", defines);

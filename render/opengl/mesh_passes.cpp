@@ -124,6 +124,11 @@ void MeshPasses::addBindings(std::vector<TextureBinding>& to) const {
     if (map_) to.push_back({"meshDepthMap", GL_TEXTURE_2D, map_->texture(0)});
 }
 
+void MeshPasses::addCorners(std::vector<TextureBinding>& to) const {
+    to.push_back({"meshCorners", GL_TEXTURE_BUFFER, corners_.texture()});
+    to.push_back({"meshNormals", GL_TEXTURE_BUFFER, normals_.texture()});
+}
+
 void MeshPasses::setUniforms(const PreparedView& view, const ShaderProgram& program) const {
     const DepthMapGrid& grid = view.meshDepthMap;
     program.set("meshMapGrid", glm::vec4(grid.origin, grid.texelSize, grid.top));

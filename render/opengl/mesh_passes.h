@@ -33,6 +33,8 @@ class MeshPasses {
 
     /// Adds the samplers of shaders/meshes.glsl and shaders/light.glsl, and their textures.
     void addBindings(std::vector<TextureBinding>& to) const;
+    /// Adds the samplers of shaders/solid_hits.glsl for the corners of triangles.
+    void addCorners(std::vector<TextureBinding>& to) const;
     /// Sets the uniforms of shaders/light.glsl in the program in use.
     void setUniforms(const PreparedView& view, const ShaderProgram& program) const;
 

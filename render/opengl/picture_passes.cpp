@@ -67,6 +67,10 @@ void PicturePasses::bindState() const {
 void PicturePasses::upload(const PreparedView& view) {
     uploadMeshes(view);
     buffers_.upload(view, view.meshes.empty() ? std::span<const char>() : meshes_->tiles());
+    if (view.hasTransparency) {
+        if (!transparency_) transparency_.emplace(gl_);
+        transparency_->upload(view);
+    }
     if (!view.hasMetaballs) return;
     if (!metaballs_) metaballs_.emplace(gl_, programs_, size_);
     metaballs_->upload(view);
@@ -144,7 +148,7 @@ void PicturePasses::drawTiles(const PreparedView& view, TileClass kind, const Pa
     textures.push_back(output.sums);
     program.use(textures);
     const CellLists& tiles = view.sphereTiles;
-    if (!view.meshes.empty()) meshes_->setUniforms(view, program);
+    setUniforms(view, program);
     program.set("tilesInTarget", static_cast<float>(tiles.columns), static_cast<float>(tiles.rows));
     gl_.DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(indices.size()));
 }
@@ -165,13 +169,18 @@ void PicturePasses::drawSilhouettes(const PreparedView& view, TileClass kind, co
     std::vector<TextureBinding> textures = texturesOf(view);
     textures.push_back(silhouettes_.binding());
     program.use(textures);
-    if (!view.meshes.empty()) meshes_->setUniforms(view, program);
+    setUniforms(view, program);
     program.set("markedGrid", silhouettes_.grid());
     gl_.DrawArrays(GL_TRIANGLES, 0, 3);
     std::vector<std::uint32_t> drawn(pixelCount(size));
     gl_.ReadPixels(0, 0, size.width, size.height, GL_RGBA, GL_UNSIGNED_BYTE, drawn.data());
     const std::span<const std::int32_t> places = silhouettes_.placesOfPixels();
     for (std::size_t k = 0; k < places.size(); ++k) pixels[static_cast<std::size_t>(places[k])] = drawn[k];
+}
+
+void PicturePasses::setUniforms(const PreparedView& view, const ShaderProgram& program) const {
+    if (!view.meshes.empty()) meshes_->setUniforms(view, program);
+    if (view.hasTransparency) TransparencyBuffers::setUniforms(view, program);
 }
 
 void PicturePasses::uploadFrame(const PreparedView& view, glm::vec2 offset) const {
@@ -192,6 +201,9 @@ std::vector<TextureBinding> PicturePasses::texturesOf(const PreparedView& view) 
     std::vector<TextureBinding> textures = buffers_.bindings();
     if (view.hasMetaballs) metaballs_->addBindings(textures);
     if (!view.meshes.empty()) meshes_->addBindings(textures);
+    if (!view.hasTransparency) return textures;
+    transparency_->addBindings(textures);
+    if (!view.meshes.empty()) meshes_->addCorners(textures);
     return textures;
 }
 

@@ -12,6 +12,7 @@
 #include "render/opengl/mesh_passes.h"
 #include "render/opengl/metaball_passes.h"
 #include "render/opengl/shader_program.h"
+#include "render/opengl/transparency_buffers.h"
 #include "render/opengl/view_buffers.h"
 #include "render/prepare/prepared_view.h"
 
@@ -54,6 +55,7 @@ class PicturePasses {
     Defines definesOf(const PreparedView& view, TileClass kind, const PassOutput& output) const;
     std::vector<TextureBinding> texturesOf(const PreparedView& view) const;
     void uploadMeshes(const PreparedView& view);
+    void setUniforms(const PreparedView& view, const ShaderProgram& program) const;
 
     const Gl& gl_;
     PictureSize size_;
@@ -65,6 +67,7 @@ class PicturePasses {
     ViewBuffers buffers_;
     std::optional<MetaballPasses> metaballs_;
     std::optional<MeshPasses> meshes_;
+    std::optional<TransparencyBuffers> transparency_;
     MarkedFragments silhouettes_;
     std::optional<Target> samples_;  // pixels of silhouettes, side by side
     Target picture_;                 // sRGB pixels

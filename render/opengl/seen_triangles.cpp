@@ -123,8 +123,11 @@ SeenTriangles seenTriangles(const PreparedView& view) {
 std::vector<TriangleCorners> unlitTriangles(const PreparedView& view) {
     std::vector<TriangleCorners> unlit;
     const dvec3 toLight(view.light.toLight);
-    for (const DrawnTriangle& triangle : view.meshes.triangles)
-        if (dot(normalOf(view.meshes, triangle), toLight) < 0.0) unlit.push_back(triangle.corners);
+    for (std::size_t k = 0; k < view.meshes.triangles.size(); ++k) {
+        const DrawnTriangle& triangle = view.meshes.triangles[k];
+        if (view.meshes.isOpaque(k) && dot(normalOf(view.meshes, triangle), toLight) < 0.0)
+            unlit.push_back(triangle.corners);
+    }
     return unlit;
 }
 

@@ -31,6 +31,8 @@ struct DrawnMeshes {
     glm::vec3 eye{0.0F};                    ///< world coordinates, m
 
     bool empty() const { return triangles.empty(); }
+    /// Whether light does not pass a triangle's mesh.
+    bool isOpaque(std::size_t triangle) const { return !obstacles[triangles[triangle].mesh].medium.isTransparent(); }
 };
 
 /// Largest number of triangles in one picture.

@@ -63,7 +63,8 @@
 //   tau = sum over j = 1...6 of (1 - (j - 1/2)/6) F(j cubes further along e),
 // and O(x) is interpolated trilinearly between the centers of the cubes around x + 0.75 s e, a little ahead so that a
 // surface does not hide the sky from itself. A particle has the values of its center all over, the surface of metaballs
-// the mean of the balls' values weighted by their kernels, obstacles and the ground those of the point itself.
+// the mean of the balls' values weighted by their kernels, obstacles and the ground those of the point itself. Sky is
+// seen through metaballs whose medium has a transparency t: for obstacles and the ground O counts as 1 - (1 - t)(1 - O).
 //
 // Particles with glow light what is around them. A particle of radius a has in the direction of a unit vector u the
 // intensity glow albedo^2 a^2 skyVisibility(u), with the values O of its center: those inside of a heap emit little.
@@ -99,11 +100,18 @@
 // boxes cover, less that of the intersections of each two, plus that of each three, and so on. Groups of more than 256
 // boxes, or with more than 16 terms to a box, are not joined.
 //
-// Metaballs cover the
-// share of rays to the light that meet them. With t = S/2 mean radii, these rays start around  p + 1.5 t n + 0.5 t l,
+// Metaballs cover the share of rays to the light that meet them. With t = S/2 mean radii, these rays start around
+//   p + 1.5 t n + 0.5 t l,
 // p being the point, and are spread over the light's plane with the weights of a quadratic B-spline, 3 t wide, along
 // each of the axes u and v of light_space.h. Meshes cover the share of such rays that enter a solid, which start around
 // p + 1.5 t |n x l| n. With S = 0 edges are sharp, up to the width of a pixel.
+//
+// Transparent meshes cover nothing. Of metaballs whose medium has a transparency t, light of each color passes through:
+// in place of the share K that they cover, K (1 - t 2^-D) counts.  D is the optical depth of the column of metaballs
+// along the light, above the point and below: the sum over all particles, at a distance d from the column's axis, of
+//   3 kBodyVolume r^3/(pi R^2) (1 - d^2/R^2)^2 log2(1/C)/A   for d < R = kSplatReach r,
+// where r is the particle's radius, C its color, at least kDarkestMedium, and A the attenuation distance. It may be
+// interpolated linearly between columns half a mean radius apart, or as many as 1024 along a side allow.
 //
 // 5. Rounding to 8 bits
 //
@@ -114,7 +122,39 @@
 // to 1/128 of a step, so that smooth gradients show no bands. A color that is a whole number of steps is not changed:
 // it stays flat. All of the picture is dithered and not only the sky, because the ground, soft shadows and large smooth
 // surfaces change as slowly as the sky does. Text and scales, and the layers for compositing, are not.
+//
+// 6. Transparency
+//
+// Metaballs and meshes whose Medium has a transparency t above 0 are bodies that light passes through. Where a ray from
+// the eye first meets one, its pixel shows
+//   own + t W behind.
+// own is the displayed color of section 1 with the body multiplied by 1 - t. A transparent mesh has a highlight and
+// mirrors its surroundings as a particle does whose specular is h, whose glossExponent is kGlassGloss and whose
+// reflection is 1; behind is the displayed color of what the ray meets at last, by sections 1 and 2, and W the share of
+// it that arrives. All surfaces on the way but the first are clear, whatever their t.
+//
+// The ray. At a surface between media with the refractive indices a, on the side where it comes from, and b, let c be
+// the cosine of its angle with the normal. It is refracted by Snell's law. The share that is mirrored is F, Schlick's
+// approximation, at the angle in the thinner medium:
+//   F = h + (1 - h) (1 - c')^5  with  h = ((a - b)/(a + b))^2,  c' = c for a <= b, else sqrt(1 - (a/b)^2 (1 - c^2)).
+// The ray goes on with W (1 - F) in place of W. Where it comes from air and has met another surface before, the own of
+// that first surface gets W F surroundings(r) in addition, before the exposure. Where Snell's law has no solution, the
+// ray is mirrored whole. On a length x through a medium of the color C and the attenuation distance A, W is multiplied
+// by C^(x/A) (Beer's law). C is the color of the surface at the point where the ray comes into the medium, but at least
+// kDarkestMedium. The ray ends at the first surface that is not transparent, at the ground, or in the background; there
+// it shows the background of the row of pixels in which the eye sees its direction, the nearest row if none does, and in
+// parallel projection that of its own pixel. It also ends in the background behind its kMostSurfaces-th surface. Rays
+// whose W is below kFaintest in all channels may be left out.
+//
+// The media. Outside of all bodies is air, of index 1. Where a mesh and metaballs overlap, the mesh counts: a glass
+// that liquid touches. Particles leave a layer of air between bodies in contact that is none in nature. A layer of air
+// on the ray counts as thin if it is less deep than the particles' mean radius, measured across the surface of the
+// mesh, obstacle or ground that bounds it, and less long than kLongestLayer of them. Metaballs reach through a thin layer
+// to whatever solid is behind or, where the ray comes out of a mesh, before them; a mesh reaches through one to an
+// opaque solid or the ground.
 #pragma once
+
+#include <cstddef>
 
 #include <glm/glm.hpp>
 
@@ -142,6 +182,33 @@ struct Surroundings {
     glm::vec3 bottom{0.2F};
 };
 
+/// The inside of a body that light passes through, section 6.
+struct Medium {
+    float transparency = 0.0F;         ///< share of what is behind that shows through the body's surface; 0: opaque
+    float refractiveIndex = 1.33F;     ///< above 1; 1.33 is water, 1.5 honey and glass
+    float attenuationDistance = 1.0F;  ///< length on which white light takes the body's color, m
+
+    bool isTransparent() const { return transparency > 0.0F; }
+    bool operator==(const Medium&) const = default;
+};
+
+/// Exponent of two of the exponent of a transparent mesh's highlight.
+inline constexpr int kGlassGloss = 10;
+/// Least value of a channel of a medium's color, so that Beer's law has a finite attenuation.
+inline constexpr float kDarkestMedium = 0.001F;
+/// Volume of a body of metaballs for each of its particles, in cubes of the particle's radius: 4/3 pi over the share of
+/// space that randomly packed spheres fill, 0.64.
+inline constexpr float kBodyVolume = 6.5F;
+/// Radius of the kernel with which a particle dims the light of transparent metaballs, in radii of the particle. Chosen:
+/// columns of a resting body are even.
+inline constexpr float kSplatReach = 2.5F;
+/// Number of surfaces of transparent bodies that a ray passes at most.
+inline constexpr std::size_t kMostSurfaces = 12;
+/// Greatest length of a thin layer of air along a ray, in mean radii of the particles.
+inline constexpr float kLongestLayer = 20.0F;
+/// Share of the light from behind that is too faint to be seen: a quarter of a step of an 8-bit color.
+inline constexpr float kFaintest = 0.001F;
+
 /// How the particles reflect, transmit and emit light. Obstacles and the ground are matt.
 struct Surface {
     float specular = 0.0F;      ///< reflectance at normal incidence; 0 is matt
@@ -152,6 +219,7 @@ struct Surface {
     float translucency = 0.0F;  ///< share of the light from behind that passes through thin parts
     float absorption = 0.0F;    ///< how much the color deepens in thick parts, 0 to 1
     float glow = 0.0F;          ///< emitted light
+    Medium medium{};            ///< inside of metaballs
 };
 
 /// A horizontal plane that fades into the background with the distance from its center.

@@ -8,6 +8,8 @@
 
 #include <glm/glm.hpp>
 
+#include "render/picture/shading_model.h"
+
 namespace render {
 
 /// The closed surface of a solid, in coordinates of its own.
@@ -23,6 +25,7 @@ struct MeshObstacle {
     glm::mat3 rotation{1.0F};  ///< from the mesh's coordinates to the picture's
     glm::vec3 position{0.0F};  ///< of the origin of the mesh's coordinates, m
     glm::vec3 color{0.5F};     ///< linear RGB
+    Medium medium{};
 
     /// Whether both have the same mesh, not merely an equal one, at the same place.
     bool operator==(const MeshObstacle&) const = default;

@@ -45,7 +45,7 @@ void shapeBalls(std::span<const SkinBall> skin, MetaballScene& scene, std::vecto
     tbb::parallel_for(std::size_t{0}, scene.balls.size(), [&](std::size_t k) {
         Metaball& ball = scene.balls[k];
         const SymmetricMatrix<double> spread = inView(scene.frame, skin[scene.particles[k]].spread);
-        scene.ellipsoids[k] = {rounded(inverse(spread) * double(ball.peak)), longestAxis(spread)};
+        scene.ellipsoids[k] = ellipsoidOf(spread, ball.peak);
         // A little longer, for the rounding of what is cast.
         ball.reach = 1.00001F * static_cast<float>(std::sqrt(spread.zz));
         pixels[k] = pixelsTouchedByEllipsoid(scene.frame, ball.center, rounded(spread)).value_or(Rect{});
@@ -53,6 +53,10 @@ void shapeBalls(std::span<const SkinBall> skin, MetaballScene& scene, std::vecto
 }
 
 }  // namespace
+
+Ellipsoid ellipsoidOf(const SymmetricMatrix<double>& spread, float peak) {
+    return {rounded(inverse(spread) * double(peak)), longestAxis(spread)};
+}
 
 MetaballScene metaballScene(const CameraFrame& frame, const View& view, std::span<const SkinBall> balls) {
     MetaballScene scene;

@@ -33,6 +33,11 @@ struct Ellipsoid {
     float radius = 1.0F;          ///< of a sphere around the kernel, m; at most a tenth longer than its longest axis
 };
 
+/// The shape of a ball.
+/// @param spread  as in SkinBall, along any axes, which are those of the result
+/// @param peak    square root of the ball's weight
+Ellipsoid ellipsoidOf(const SymmetricMatrix<double>& spread, float peak);
+
 /// What a ball contributes to the surface around it, weighted by its kernel.
 struct BallAttributes {
     glm::vec3 color{0.0F};

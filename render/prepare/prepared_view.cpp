@@ -33,6 +33,23 @@ void findSkyVisibility(PreparedView& to) {
                                                         : SkyVisibilityMap{};
 }
 
+bool hasTransparency(const PreparedView& prepared) {
+    const View& view = *prepared.view;
+    const auto isTransparent = [](const MeshObstacle& mesh) { return mesh.medium.isTransparent(); };
+    return prepared.settings.isShaded && ((prepared.hasMetaballs && view.surface.medium.isTransparent()) ||
+                                          std::ranges::any_of(view.meshObstacles, isTransparent));
+}
+
+/// Sorts everything for rays that go in any direction.
+void prepareTransparency(PreparedView& to) {
+    const View& view = *to.view;
+    to.hasTransparency = hasTransparency(to);
+    to.ballCells =
+        to.hasTransparency && to.hasMetaballs ? ballCells(view, to.skin, to.frame.eye) : BallCells{};
+    to.solids =
+        to.hasTransparency ? solidTree(to.drawn.spheres, view.boxObstacles, to.meshes, to.frame.eye) : SolidTree{};
+}
+
 void binForCamera(PreparedView& to) {
     const View& view = *to.view;
     to.viewSpheres.resize(to.drawn.spheres.size());
@@ -55,6 +72,9 @@ void binForLight(PreparedView& to) {
     to.meshDepthMap = castsShadows && !to.meshes.empty()
                           ? meshDepthMapGrid(to.light, view, to.meshes, to.settings.depthMapTexels)
                           : DepthMapGrid{};
+    to.opticalDepth = !to.depthMap.empty() && view.surface.medium.isTransparent()
+                          ? opticalDepthMap(to.light, view, to.frame.eye)
+                          : OpticalDepthMap{};
     if (to.depthMap.empty()) return;
     to.lightMetaballs = metaballScene(
         lightFrame(to.light, to.depthMap, view.camera.eye, to.settings.depthMapRaysPerTexel), view, to.skin);
@@ -114,7 +134,8 @@ void prepareView(const View& view, const PrepareSettings& settings, PreparedView
             to.meshes = drawnMeshes(drawn, to.frame.eye, std::move(to.meshes));
             to.skin = to.hasMetaballs ? skinOf(drawn) : std::vector<SkinBall>{};
         });
-        tbb::parallel_invoke([&] { timed(times.bin, [&] { binForCamera(to); }); },
+        tbb::parallel_invoke([&] { timed(times.bin, [&] { prepareTransparency(to); }); },
+                             [&] { timed(times.bin, [&] { binForCamera(to); }); },
                              [&] { timed(times.shadow, [&] { binForLight(to); }); });
     };
     tbb::parallel_invoke([&] { timed(times.occlusion, [&] { findSkyVisibility(to); }); }, placeBalls);

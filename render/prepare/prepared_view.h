@@ -11,14 +11,17 @@
 #include "render/picture/drawn_meshes.h"
 #include "render/picture/view.h"
 #include "render/prepare/ambient_occlusion.h"
+#include "render/prepare/ball_cells.h"
 #include "render/prepare/depth_map_grid.h"
 #include "render/prepare/drawn_spheres.h"
 #include "render/prepare/light_space.h"
 #include "render/prepare/lighting/glow_light.h"
 #include "render/prepare/lighting/shadow_boxes.h"
 #include "render/prepare/metaball_scene.h"
+#include "render/prepare/optical_depth_map.h"
 #include "render/prepare/screen_lines.h"
 #include "render/prepare/skin.h"
+#include "render/prepare/solid_tree.h"
 #include "render/prepare/tiles.h"
 
 namespace render {
@@ -47,7 +50,12 @@ struct PreparedView {
     std::vector<SkinBall> skin;  ///< in world coordinates; only with metaballs, as the next three
     MetaballScene metaballs;
     DepthMapGrid depthMap;         ///< empty unless metaballs cast shadows
+    OpticalDepthMap opticalDepth;  ///< empty unless metaballs are transparent and cast shadows
     MetaballScene lightMetaballs;  ///< the metaballs as the light sees them, for the depth map; without attributes
+
+    bool hasTransparency = false;  ///< whether rays are followed through transparent bodies
+    BallCells ballCells;           ///< the metaballs for these rays; only with metaballs and transparency
+    SolidTree solids;              ///< everything else but the ground for these rays; only with transparency
 
     DrawnMeshes meshes;         ///< the mesh obstacles at their places
     DepthMapGrid meshDepthMap;  ///< of the heights of meshes over the light's plane; empty unless they cast shadows

@@ -17,6 +17,8 @@ using engine::Vec3;
 
 /// Default color of boxes and spheres, linear RGB. Chosen: a gray that shows light and shade.
 const Vec3 kObstacleColor(0.5, 0.5, 0.5);
+/// Default color of transparent obstacles, linear RGB. Chosen: window glass, greenish where it is thick.
+const Vec3 kGlassColor(0.75, 0.9, 0.82);
 
 /// Derives center and size of a box or container from its two corners, or the corners from center and size.
 void completeCorners(Section& section, BuildContext& context) {
@@ -115,7 +117,9 @@ void addToLook(Section& section, const BuiltShape& built, std::size_t obstacle, 
     const bool isContainer = shape == "container";
     if (shape != "sphere") section.derive("edges", TypedValue::ofBoolean(isContainer));
     const Vec3& edgeColor = lookSection.vector("edge_color");
-    section.derive("color", TypedValue::ofVector(isContainer ? edgeColor : kObstacleColor));
+    const render::Medium medium = isContainer ? render::Medium{} : mediumFrom(section);
+    const Vec3& surfaceColor = medium.isTransparent() ? kGlassColor : kObstacleColor;
+    section.derive("color", TypedValue::ofVector(isContainer ? edgeColor : surfaceColor));
     if (!section.boolean("visible")) {
         if (shape != "sphere" && section.isGiven("edges") && section.boolean("edges"))
             context.warnings.add(section.position("edges"),
@@ -123,15 +127,20 @@ void addToLook(Section& section, const BuiltShape& built, std::size_t obstacle, 
         return;
     }
     const glm::vec3 color = toFloat(section.vector("color"));
-    if (shape == "sphere") {
+    if (shape == "sphere" && !medium.isTransparent()) {
         look.spheres.push_back({obstacle, section.vector("center"), section.number("radius"), color});
         return;
     }
+    if (shape == "sphere") {
+        const auto mesh = std::make_shared<const render::SolidMesh>(ballMesh(section.number("radius")));
+        look.solids.push_back({obstacle, mesh, built.middle, color, medium});
+        return;
+    }
     const bool hasFaces = !isContainer && section.boolean("faces");
-    if (hasFaces && shape == "box" && !isPlaced)
+    if (hasFaces && shape == "box" && !isPlaced && !medium.isTransparent())
         look.boxes.push_back({obstacle, section.vector("minimum"), section.vector("maximum"), color});
     else if (hasFaces)
-        look.solids.push_back({obstacle, built.mesh, built.middle, color});
+        look.solids.push_back({obstacle, built.mesh, built.middle, color, medium});
     if (section.boolean("edges"))
         look.edges.push_back({obstacle, edgesOf(section, built), isContainer ? color : toFloat(edgeColor)});
 }

@@ -94,6 +94,7 @@ void readView(const Section& section, render::View& view) {
     view.surface.translucency = number("translucency");
     view.surface.absorption = number("absorption");
     view.surface.glow = number("glow");
+    view.surface.medium = mediumFrom(section);
 }
 
 /// Length of a scale bar at a camera's target, as a share of the picture's width.
@@ -166,6 +167,9 @@ Look buildLook(Section& section, const CameraPath& camera, BuildContext& context
     section.derive("ground_fade", TypedValue::ofNumber(std::clamp(30.0, 2.0 * halfHeight, 60.0 * halfHeight)));
     readView(section, look.common);
     look.common.light.toLight = toFloat(*toLight);
+    if (look.common.surface.medium.isTransparent() && look.common.style == render::Style::spheres)
+        context.warnings.add(section.position("transparency"),
+                             "transparency is that of metaballs; look.style = \"spheres\" draws opaque particles");
     look.edgeWidth = toFloat(section.number("edge_width"));
     look.groundHeight = section.number("ground_height");
     return look;

@@ -5,6 +5,7 @@
 
 #include "engine/state/state_checks.h"
 #include "scenes/build/builders.h"
+#include "scenes/model/to_float.h"
 #include "scenes/text/edit_distance.h"
 
 namespace scenes {
@@ -93,6 +94,11 @@ std::optional<engine::Vec3> directionFrom(Section& section, std::string_view nam
     const auto direction = unitVector(section.vector(name));
     if (!direction) report(section, name, context, "{} is [0, 0, 0], must not be zero", name);
     return direction;
+}
+
+render::Medium mediumFrom(const Section& section) {
+    return {toFloat(section.number("transparency")), toFloat(section.number("refractive_index")),
+            toFloat(section.number("attenuation_distance"))};
 }
 
 }  // namespace scenes

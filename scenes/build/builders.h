@@ -128,6 +128,9 @@ std::optional<std::uint32_t> materialOf(Section& section, const Materials& mater
 engine::Motion motionFrom(Section& section, std::string_view velocity, const engine::Vec3& pivot,
                           BuildContext& context);
 
+/// The inside of a transparent body, by the keys of a table that has them all.
+render::Medium mediumFrom(const Section& section);
+
 /// The vector scaled to length 1; nothing for the zero vector.
 std::optional<engine::Vec3> unitVector(const engine::Vec3& vector);
 

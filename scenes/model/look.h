@@ -48,6 +48,7 @@ struct DrawnSolid {
     std::shared_ptr<const render::SolidMesh> mesh;  ///< around the origin below
     engine::Vec3 origin = {0.0, 0.0, 0.0};          ///< m
     glm::vec3 color{0.5F};                          ///< linear RGB
+    render::Medium medium{};
 };
 
 /// Lines that are drawn of an obstacle.

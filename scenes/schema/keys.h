@@ -41,6 +41,18 @@ inline Key share(std::string_view name, std::string_view help) {
     return key(name, Type::number, "", help).within(kUnitInterval);
 }
 
+/// Keys of the inside of a transparent body, render::Medium.
+inline Key refractiveIndexKey() {
+    return key("refractive_index", Type::number, "",
+               "refractive index of what is transparent: 1.33 for water, 1.5 for glass and honey")
+        .within({1.0, 4.0});
+}
+
+inline Key attenuationKey() {
+    return length("attenuation_distance", "way through what is transparent on which white light takes its color")
+        .defaultsTo("1");
+}
+
 inline Key color(std::string_view name, std::string_view help) {
     return key(name, Type::color, "", help).within(kUnitInterval);
 }

@@ -234,6 +234,8 @@ std::vector<Key> emitterPathKeys() {
 }
 
 std::vector<Key> obstacleKeys() {
+    const std::vector<std::string_view> kWithSurface = {"box",     "sphere",  "cylinder",   "cone",
+                                                        "frustum", "capsule", "revolution", "mesh"};
     return {
         key("shape", Type::choice, "", "shape of the obstacle; a container is the inside of a box")
             .required()
@@ -317,9 +319,15 @@ std::vector<Key> obstacleKeys() {
             .onlyFor({"box", "container", "cylinder", "cone", "frustum", "capsule", "revolution", "mesh"})
             .notSimulated(),
         color("color", "color of the surface, or of the edges of a container")
-            .derivedAs("gray; for a container look.edge_color")
+            .derivedAs("gray; of what is transparent, that of glass; for a container look.edge_color")
             .onlyFor({"box", "container", "sphere", "cylinder", "cone", "frustum", "capsule", "revolution", "mesh"})
             .notSimulated(),
+        share("transparency", "share of what is behind that shows through the surface, as through glass")
+            .defaultsTo("0")
+            .onlyFor(kWithSurface)
+            .notSimulated(),
+        refractiveIndexKey().defaultsTo("1.5").onlyFor(kWithSurface).notSimulated(),
+        attenuationKey().onlyFor(kWithSurface).notSimulated(),
     };
 }
 

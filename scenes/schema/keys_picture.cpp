@@ -102,6 +102,9 @@ std::vector<Key> surfaceKeys() {
             .defaultsTo("0")
             .within({0.0, 4.0}),
         share("absorption", "how much more saturated and darker the color of thick parts is").defaultsTo("0"),
+        share("transparency", "share of what is behind that shows through metaballs, as through water").defaultsTo("0"),
+        refractiveIndexKey().defaultsTo("1.33"),
+        attenuationKey(),
         key("glow", Type::number, "",
             "strength of the particles' own light, in the square of their color; lights what is around them")
             .defaultsTo("0")

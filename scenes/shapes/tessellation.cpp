@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "engine/core/rotation.h"
 
@@ -170,6 +171,16 @@ render::SolidMesh revolutionMesh(const Profile& profile, bool isClosed, double h
     for (const OutlineEdge& edge : isSolid ? solidOutline(profile) : wallOutline(profile, isClosed, halfThickness))
         appendBand(mesh, edge);
     return mesh;
+}
+
+render::SolidMesh ballMesh(double radius) {
+    constexpr int kSteps = 60;  // from pole to pole
+    Profile half;
+    for (int k = 0; k <= kSteps; ++k) {
+        const double angle = std::numbers::pi * (double(k) / kSteps - 0.5);
+        half.push_back({k % kSteps == 0 ? 0.0 : radius * std::cos(angle), radius * std::sin(angle)});
+    }
+    return revolutionMesh(half, true, 0.0);
 }
 
 render::SolidMesh cuboidMesh(const Vec3& size) {

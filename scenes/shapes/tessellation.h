@@ -16,6 +16,9 @@ namespace scenes {
 /// @param profile  refined, as engine::Revolution takes it
 render::SolidMesh revolutionMesh(const Profile& profile, bool isClosed, double halfThickness);
 
+/// The surface of a ball around the origin. @param radius  m
+render::SolidMesh ballMesh(double radius);
+
 /// The surface of a box around the origin.
 /// @param size  edge lengths, m
 render::SolidMesh cuboidMesh(const engine::Vec3& size);

@@ -88,7 +88,7 @@ void addObstacles(const Look& look, const ObstaclePlaces& places, render::View& 
         if (!places.isThere(solid.obstacle)) continue;
         const engine::Pose pose = places.pose(solid.obstacle);
         view.meshObstacles.push_back(
-            {solid.mesh, matrixInFloat(pose.rotation), places.inView(pose, solid.origin), solid.color});
+            {solid.mesh, matrixInFloat(pose.rotation), places.inView(pose, solid.origin), solid.color, solid.medium});
     }
     for (const DrawnEdges& edges : look.edges) {
         if (!places.isThere(edges.obstacle)) continue;

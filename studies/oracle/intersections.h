@@ -32,6 +32,8 @@ struct Hit {
     dvec3 normal{0.0};  ///< outward normal of the surface, unit length
     dvec3 albedo{0.0};
     AxisVisibility sky = kAllVisible;
+    render::Medium medium{};  ///< of metaballs and meshes
+    bool isInner = false;     ///< whether a mesh or metaballs are met from the inside
 };
 
 /// A vector scaled to unit length; the fallback if it is zero.

@@ -31,7 +31,9 @@ Hit hitTriangle(const Ray& ray, const MeshTriangle& triangle) {
     const dvec3 flat = glm::cross(b - a, c - a);
     const dvec3 mean =
         weights.x * triangle.normals[0] + weights.y * triangle.normals[1] + weights.z * triangle.normals[2];
-    const double side = glm::dot(flat, ray.direction) > 0.0 ? -1.0 : 1.0;
+    hit.medium = triangle.medium;
+    hit.isInner = glm::dot(flat, ray.direction) > 0.0;
+    const double side = hit.isInner ? -1.0 : 1.0;
     hit.normal = side * unitOr(mean, unitOr(flat, -ray.direction));
     return hit;
 }
@@ -48,7 +50,7 @@ MeshTree::MeshTree(const render::View& view) {
     for (const render::MeshObstacle& obstacle : view.meshObstacles) {
         const render::SolidMesh& mesh = *obstacle.mesh;
         for (const std::array<std::uint32_t, 3>& corners : mesh.triangles) {
-            MeshTriangle triangle{{}, {}, dvec3(obstacle.color)};
+            MeshTriangle triangle{{}, {}, dvec3(obstacle.color), obstacle.medium};
             for (std::size_t k = 0; k < 3; ++k) {
                 triangle.corners[k] =
                     glm::dmat3(obstacle.rotation) * dvec3(mesh.positions[corners[k]]) + dvec3(obstacle.position);
@@ -105,7 +107,7 @@ void MeshTree::trace(std::size_t node, const Ray& ray, bool outerOnly, Hit& best
         return;
     }
     for (std::size_t k = at.first; k < at.first + at.count; ++k) {
-        if (outerOnly && !isOuter(ray, triangles_[k])) continue;
+        if (outerOnly && (triangles_[k].medium.isTransparent() || !isOuter(ray, triangles_[k]))) continue;
         const Hit hit = hitTriangle(ray, triangles_[k]);
         if (hit.distance < best.distance) best = hit;
     }

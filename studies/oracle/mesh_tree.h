@@ -20,6 +20,7 @@ struct MeshTriangle {
     std::array<dvec3, 3> corners;  ///< counterclockwise as seen from outside, m
     std::array<dvec3, 3> normals;  ///< outward normals at the corners, unit length
     dvec3 color{0.0};
+    render::Medium medium;
 };
 
 class MeshTree {
@@ -29,7 +30,7 @@ class MeshTree {
     /// The nearest point of a triangle along a ray; Kind::none if there is none. The normal is interpolated between
     /// the corners, and turned around where the ray meets the inner side of the triangle.
     Hit nearest(const Ray& ray) const;
-    /// Whether a ray meets the outer side of any triangle, through which it enters a solid.
+    /// Whether a ray meets the outer side of any triangle of an opaque mesh, through which it enters a solid.
     bool isEntered(const Ray& ray) const;
 
  private:

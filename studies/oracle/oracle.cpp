@@ -10,6 +10,7 @@
 
 #include "studies/oracle/polynomial.h"
 #include "studies/oracle/soft_shadows.h"
+#include "studies/oracle/transparency.h"
 
 namespace oracle {
 namespace {
@@ -87,11 +88,13 @@ Quartic fieldAlong(const std::vector<CrossedBall>& balls, double threshold, cons
     return sum;
 }
 
-/// The smallest distance along a ray at which the metaball field is at least the threshold, m; infinity if there is
-/// none. Between neighboring points where the ray enters or leaves the reach of a ball the field is one polynomial, of
-/// which all roots are found. The ray is not sampled in steps, so nothing is too thin to be found.
-double firstFieldDistance(const Scene& scene, const Indices& near, const Ray& ray) {
+/// The smallest distance along a ray at which the metaball field is at least the threshold or, if the ray begins inside
+/// the metaballs, at most the threshold, m; infinity if there is none. Between neighboring points where the ray enters
+/// or leaves the reach of a ball the field is one polynomial, of which all roots are found. The ray is not sampled in
+/// steps, so nothing is too thin to be found.
+double firstFieldDistance(const Scene& scene, const Indices& near, const Ray& ray, bool isInside = false) {
     const std::vector<CrossedBall> balls = ballsCrossed(scene, near, ray);
+    if (isInside && balls.empty()) return 0.0;
     std::vector<double> ends{0.0};
     for (const CrossedBall& ball : balls) {
         if (ball.interval.enter > 0.0) ends.push_back(ball.interval.enter);
@@ -101,7 +104,9 @@ double firstFieldDistance(const Scene& scene, const Indices& near, const Ray& ra
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
         const Interval part{ends[i], ends[i + 1]};
         if (part.enter == part.exit) continue;
-        const Quartic excess = fieldAlong(balls, fieldThreshold(scene.view), part);
+        Quartic excess = fieldAlong(balls, fieldThreshold(scene.view), part);
+        if (isInside)
+            for (double& coefficient : excess) coefficient = -coefficient;
         if (valueAt(excess, -1.0) >= 0.0) return part.enter;
         if (staysNegative(excess)) continue;
         const std::vector<double> roots = rootsIn(excess, -1.0, 1.0);
@@ -112,12 +117,14 @@ double firstFieldDistance(const Scene& scene, const Indices& near, const Ray& ra
 
 /// The point where a ray meets the metaball surface, with its normal, color and sky visibility. The gradient of a
 /// ball's kernel is -4 (1 - d^T M d) M d, of which the factor 4 drops out of the normal.
-Hit hitField(const Scene& scene, const Indices& near, const Ray& ray) {
+Hit hitField(const Scene& scene, const Indices& near, const Ray& ray, bool isInside = false) {
     const render::View& view = scene.view;
-    const double distance = firstFieldDistance(scene, near, ray);
+    const double distance = firstFieldDistance(scene, near, ray, isInside);
     if (distance == kInfinity) return {};
     Hit hit = hitAt(ray, distance);
     hit.kind = Hit::Kind::particle;
+    hit.medium = view.surface.medium;
+    hit.isInner = isInside;
     dvec3 downhill{0.0};
     dvec3 colorSum{0.0};
     double kernelSum = 0.0;
@@ -132,7 +139,7 @@ Hit hitField(const Scene& scene, const Indices& near, const Ray& ray) {
         kernelSum += weight;
         for (std::size_t side = 0; side < 6; ++side) skySum[side] += weight * scene.sky.ofParticle(k)[side];
     }
-    hit.normal = unitOr(downhill, -ray.direction);
+    hit.normal = (isInside ? -1.0 : 1.0) * unitOr(downhill, -ray.direction);
     hit.albedo = colorSum / kernelSum;
     for (std::size_t side = 0; side < 6; ++side) hit.sky[side] = skySum[side] / kernelSum;
     return hit;
@@ -151,15 +158,12 @@ double lift(const dvec3& point) {
     return 1e-9 * (1.0 + glm::length(point));
 }
 
-/// The nearest point along a ray on a surface that casts shadows: on any surface but the ground.
-Hit traceCasters(const Scene& scene, const Ray& ray) {
+/// The nearest point along a ray on a surface other than metaballs, meshes and the ground.
+Hit traceShapes(const Scene& scene, const Ray& ray) {
     const render::View& view = scene.view;
     Hit best;
-    const Indices near = scene.ballsAlong(ray);
-    if (view.style == render::Style::metaballs) {
-        best = hitField(scene, near, ray);
-    } else {
-        for (const std::uint32_t k : near) {
+    if (view.style == render::Style::spheres) {
+        for (const std::uint32_t k : scene.ballsAlong(ray)) {
             const render::Sphere& sphere = view.particles[k];
             Hit hit = hitSphere(ray, dvec3(sphere.center), sphere.radius);
             hit.sky = scene.sky.ofParticle(k);
@@ -170,8 +174,15 @@ Hit traceCasters(const Scene& scene, const Ray& ray) {
         keepNearer(best, hitSphere(ray, dvec3(sphere.center), sphere.radius), Hit::Kind::sphereObstacle, sphere.color);
     for (const render::BoxObstacle& box : view.boxObstacles)
         keepNearer(best, hitBox(ray, box), Hit::Kind::boxObstacle, box.color);
-    const Hit onMesh = scene.meshes.nearest(ray);
-    return onMesh.distance < best.distance ? onMesh : best;
+    return best;
+}
+
+/// The share of the light that reaches a point of each color, of which metaballs and other things cover these shares.
+dvec3 uncovered(const Scene& scene, const dvec3& point, double metaballs, double others) {
+    const double transparency = double(scene.view.surface.medium.transparency);
+    if (transparency == 0.0 || metaballs == 0.0) return dvec3(std::max(0.0, 1.0 - others - metaballs));
+    const dvec3 opaque = 1.0 - transparency * columnTransmission(scene.view, point);
+    return glm::max(dvec3(0.0), 1.0 - others - metaballs * opaque);
 }
 
 /// The share of the light that meshes cover at a point.
@@ -186,8 +197,10 @@ double coverOfMeshes(const Scene& scene, const ShadedPoint& shaded) {
     return met / static_cast<double>(origins.size());
 }
 
-dvec3 unitToLight(const render::View& view) {
-    return glm::normalize(dvec3(view.light.toLight));
+/// Whether a ray meets metaballs.
+bool isFieldMet(const Scene& scene, const Ray& ray) {
+    return scene.view.style == render::Style::metaballs &&
+           firstFieldDistance(scene, scene.ballsAlong(ray), ray) < kInfinity;
 }
 
 // The functions below are named after the terms of section 1 of shading_model.h.
@@ -211,12 +224,6 @@ dvec3 skyLight(const render::View& view, const dvec3& d) {
     return glm::mix(dvec3(view.ambient.ground), dvec3(view.ambient.sky), 0.5 + 0.5 * d.y);
 }
 
-dvec3 surroundings(const render::View& view, const dvec3& d) {
-    const render::Surroundings& around = view.surroundings;
-    if (d.y > 0.0) return glm::mix(dvec3(around.horizon), dvec3(around.top), d.y * (2.0 - d.y));
-    return glm::mix(dvec3(around.horizon), dvec3(around.bottom), std::min(1.0, -4.0 * d.y));
-}
-
 dvec3 shoulder(const dvec3& color) {
     const double peak = std::max({color.x, color.y, color.z});
     if (peak <= 0.7) return color;
@@ -226,10 +233,16 @@ dvec3 shoulder(const dvec3& color) {
 
 /// The sky visibility of a hit: on particles that of the particle, on obstacles and the ground that of the point.
 AxisVisibility skyVisibility(const Scene& scene, const Hit& hit) {
-    return hit.kind == Hit::Kind::particle ? hit.sky : scene.sky.at(hit.point);
+    if (hit.kind == Hit::Kind::particle) return hit.sky;
+    AxisVisibility sky = scene.sky.at(hit.point);
+    if (scene.view.style == render::Style::metaballs)
+        for (double& open : sky) open = 1.0 - (1.0 - double(scene.view.surface.medium.transparency)) * (1.0 - open);
+    return sky;
 }
 
-dvec3 shadeSurface(const Scene& scene, const Hit& hit, const Ray& ray) {
+/// @param bodyShare  share of the body's color that is seen
+/// @param added      light that is mirrored beside the surface's own terms
+dvec3 shadeSurface(const Scene& scene, const Hit& hit, const Ray& ray, double bodyShare, const dvec3& added) {
     const render::View& view = scene.view;
     const bool isParticle = hit.kind == Hit::Kind::particle;
     // Obstacles and the ground are matt: they have no highlight, reflection, translucency or glow.
@@ -239,7 +252,7 @@ dvec3 shadeSurface(const Scene& scene, const Hit& hit, const Ray& ray) {
     const dvec3& n = hit.normal;
     const dvec3 light(view.light.color);
     const bool isLit = glm::dot(n, toLight) > 0.0;
-    const double visible = !isLit ? 0.0 : view.light.shadows ? lightVisibility(scene, hit.point, n) : 1.0;
+    const dvec3 visible = !isLit ? dvec3(0.0) : view.light.shadows ? lightReaching(scene, hit.point, n) : dvec3(1.0);
     const AxisVisibility sky = skyVisibility(scene, hit);
     double cosine = std::max(0.0, glm::dot(n, toLight));
     const double dust = 2.2 / (cosine + std::max(0.0, glm::dot(n, toEye)) + 0.2);
@@ -250,8 +263,9 @@ dvec3 shadeSurface(const Scene& scene, const Hit& hit, const Ray& ray) {
                               (skyLight(view, -n) + light * (0.25 + std::max(0.0, -glm::dot(n, toLight))));
     const dvec3 body =
         glm::mix(hit.albedo, hit.albedo * hit.albedo, double(surface.absorption) * (1.0 - visibilityToward(sky, -n)));
-    dvec3 color =
-        (1.0 - double(surface.metal)) * body * (ambient + diffuse + transmitted + scene.glow.at(hit.point, n));
+    dvec3 color = bodyShare * (1.0 - double(surface.metal)) * body *
+                      (ambient + diffuse + transmitted + scene.glow.at(hit.point, n)) +
+                  added;
     const dvec3 mirror = glm::reflect(ray.direction, n);
     const double unhidden = 1.0 - double(view.ambient.occlusion) * (1.0 - visibilityToward(sky, mirror));
     if (isParticle && isLit) color += visible * unhidden * light * highlight(view, hit, toEye, toLight);
@@ -266,6 +280,29 @@ dvec3 shadeSurface(const Scene& scene, const Hit& hit, const Ray& ray) {
 }
 
 }  // namespace
+
+dvec3 surroundings(const render::View& view, const dvec3& d) {
+    const render::Surroundings& around = view.surroundings;
+    if (d.y > 0.0) return glm::mix(dvec3(around.horizon), dvec3(around.top), d.y * (2.0 - d.y));
+    return glm::mix(dvec3(around.horizon), dvec3(around.bottom), std::min(1.0, -4.0 * d.y));
+}
+
+dvec3 unitToLight(const render::View& view) {
+    return glm::normalize(dvec3(view.light.toLight));
+}
+
+Hit traceField(const Scene& scene, const Ray& ray, bool isInside) {
+    return hitField(scene, scene.ballsAlong(ray), ray, isInside);
+}
+
+Hit traceSolids(const Scene& scene, const Ray& ray) {
+    Hit best = traceShapes(scene, ray);
+    const Hit onMesh = scene.meshes.nearest(ray);
+    if (onMesh.distance < best.distance) best = onMesh;
+    if (scene.view.ground)
+        keepNearer(best, hitGround(ray, *scene.view.ground), Hit::Kind::ground, scene.view.ground->color);
+    return best;
+}
 
 Scene::Scene(const render::View& view_, bool bruteForce)
     : view(view_),
@@ -314,9 +351,10 @@ Hit trace(const render::View& view, const Ray& ray) {
 
 Hit trace(const Scene& scene, const Ray& ray) {
     const render::View& view = scene.view;
-    Hit best = traceCasters(scene, ray);
-    if (view.ground) keepNearer(best, hitGround(ray, *view.ground), Hit::Kind::ground, view.ground->color);
-    return best;
+    const Hit onSolid = traceSolids(scene, ray);
+    if (view.style == render::Style::spheres) return onSolid;
+    const Hit onField = hitField(scene, scene.ballsAlong(ray), ray);
+    return onField.distance <= onSolid.distance ? onField : onSolid;
 }
 
 double fieldAt(const render::View& view, const dvec3& point) {
@@ -344,41 +382,48 @@ double meanRadius(const render::View& view) {
 }
 
 bool isInShadow(const Scene& scene, const dvec3& point, const dvec3& normal) {
-    return traceCasters(scene, {point + lift(point) * normal, unitToLight(scene.view)}).kind != Hit::Kind::none;
+    const Ray ray{point + lift(point) * normal, unitToLight(scene.view)};
+    return isFieldMet(scene, ray) || traceShapes(scene, ray).kind != Hit::Kind::none || scene.meshes.isEntered(ray);
 }
 
-double lightVisibility(const Scene& scene, const dvec3& point, const dvec3& normal) {
+dvec3 lightReaching(const Scene& scene, const dvec3& point, const dvec3& normal) {
     const render::View& view = scene.view;
-    if (view.light.softness == 0.0F) return isInShadow(scene, point, normal) ? 0.0 : 1.0;
+    if (view.light.softness == 0.0F) {
+        const Ray ray{point + lift(point) * normal, unitToLight(view)};
+        const bool isCovered = traceShapes(scene, ray).kind != Hit::Kind::none || scene.meshes.isEntered(ray);
+        return uncovered(scene, point, isFieldMet(scene, ray) ? 1.0 : 0.0, isCovered ? 1.0 : 0.0);
+    }
     const ShadedPoint shaded{point, normal, unitToLight(view), double(view.light.softness)};
     double cover = coverOfMeshes(scene, shaded);
+    double ofMetaballs = 0.0;
     if (view.style == render::Style::spheres) {
         for (const std::uint32_t k : scene.ballsAlong({point, shaded.toLight}))
             cover += coverOfSphere(shaded, dvec3(view.particles[k].center), double(view.particles[k].radius));
     } else {
-        double met = 0.0;
         const std::vector<dvec3> origins = fieldShadowOrigins(shaded, meanRadius(view));
-        for (const dvec3& origin : origins) {
-            const Ray ray{origin, shaded.toLight};
-            met += firstFieldDistance(scene, scene.ballsAlong(ray), ray) < kInfinity ? 1.0 : 0.0;
-        }
-        cover += met / static_cast<double>(origins.size());
+        for (const dvec3& origin : origins) ofMetaballs += isFieldMet(scene, {origin, shaded.toLight}) ? 1.0 : 0.0;
+        ofMetaballs /= static_cast<double>(origins.size());
     }
     for (const render::SphereObstacle& sphere : view.sphereObstacles)
         cover += coverOfSphere(shaded, dvec3(sphere.center), double(sphere.radius));
     for (const SignedBox& term : scene.shadowBoxes) cover += term.sign * coverOfBox(shaded, term.box, meanRadius(view));
-    return std::max(0.0, 1.0 - cover);
+    return uncovered(scene, point, ofMetaballs, cover);
+}
+
+double lightVisibility(const Scene& scene, const dvec3& point, const dvec3& normal) {
+    const dvec3 reaching = lightReaching(scene, point, normal);
+    return std::max({reaching.x, reaching.y, reaching.z});
 }
 
 dvec3 shade(const render::View& view, const Hit& hit, const Ray& ray, double screenT) {
     return shade(Scene(view, true), hit, ray, screenT);
 }
 
-dvec3 shade(const Scene& scene, const Hit& hit, const Ray& ray, double screenT) {
+dvec3 shade(const Scene& scene, const Hit& hit, const Ray& ray, double screenT, const OwnLight& own) {
     const render::View& view = scene.view;
     const dvec3 background = glm::mix(dvec3(view.background.bottom), dvec3(view.background.top), screenT);
     if (hit.kind == Hit::Kind::none) return background;
-    const dvec3 color = shadeSurface(scene, hit, ray);
+    const dvec3 color = shadeSurface(scene, hit, ray, own.bodyShare, own.added);
     if (hit.kind != Hit::Kind::ground) return color;
     const double relative = glm::distance(hit.point, dvec3(view.ground->center)) / double(view.ground->fadeDistance);
     const double fade = std::pow(relative, 4.0);
@@ -410,7 +455,7 @@ Picture drawWindow(const Scene& scene, render::PictureSize size, const Window& w
     Picture picture{window.width, window.height, {}, {}, {}, {}};
     const auto sampleAt = [&](double px, double py) {
         const Ray ray = pixelRay(view, size, px, py);
-        return glm::clamp(shade(scene, trace(scene, ray), ray, 1.0 - py / size.height), 0.0, 1.0);
+        return glm::clamp(colorAlong(scene, ray, size, py), 0.0, 1.0);
     };
     for (int y = window.y; y < window.y + window.height; ++y) {
         for (int x = window.x; x < window.x + window.width; ++x) {

@@ -98,14 +98,34 @@ double meanRadius(const render::View& view);
 /// by style) or of obstacles. Light::shadows is ignored here; shade() respects it.
 bool isInShadow(const Scene& scene, const dvec3& point, const dvec3& normal);
 
-/// The share of the light that reaches a point of a surface with this normal: lightVisibility in shading_model.h. If
-/// the light has no softness, it is 0 or 1 by isInShadow().
+/// The share of the light that reaches a point of a surface with this normal: lightVisibility in shading_model.h, of
+/// the color that most of it reaches. If the light has no softness and no metaballs are transparent, it is 0 or 1 by
+/// isInShadow().
 double lightVisibility(const Scene& scene, const dvec3& point, const dvec3& normal);
+
+/// The share of the light's red, green and blue that reaches a point of a surface with this normal. Transparent
+/// metaballs color it.
+dvec3 lightReaching(const Scene& scene, const dvec3& point, const dvec3& normal);
+
+/// What a transparent body shows of its own.
+struct OwnLight {
+    double bodyShare = 1.0;  ///< share of the body's color that is seen
+    dvec3 added{0.0};        ///< light that is mirrored beside the surface's own terms
+};
 
 /// The linear color of the surface that a ray meets, or of the background, before it is clamped to [0, 1].
 /// @param screenT  height in the picture: 0 at the picture's bottom edge, 1 at its top edge
 dvec3 shade(const render::View& view, const Hit& hit, const Ray& ray, double screenT);
-dvec3 shade(const Scene& scene, const Hit& hit, const Ray& ray, double screenT);
+dvec3 shade(const Scene& scene, const Hit& hit, const Ray& ray, double screenT, const OwnLight& own = {});
+
+/// What a mirror shows in a direction: surroundings(d) of shading_model.h.
+dvec3 surroundings(const render::View& view, const dvec3& d);
+dvec3 unitToLight(const render::View& view);
+
+/// The nearest point of the metaball surface along a ray, and of anything else.
+/// @param isInside  whether the ray begins inside the metaballs
+Hit traceField(const Scene& scene, const Ray& ray, bool isInside);
+Hit traceSolids(const Scene& scene, const Ray& ray);
 
 /// Threshold of a pixel of the picture: (m + 1/2)/64 of section 5 of shading_model.h.
 double ditherThreshold(int x, int y);

@@ -164,11 +164,35 @@ TEST_CASE("edges have the color of the look or of the container") {
     CHECK(viewOf(kBall + "[[obstacle]]\nshape = \"container\"\nedges = false\n" + corners).edges.empty());
 }
 
+TEST_CASE("transparent obstacles are drawn as meshes, whatever their shape") {
+    const auto obstacles = [](const std::string& keys) {
+        return viewOf(kPoint + "[[obstacle]]\nshape = \"sphere\"\ncenter = [0, 2, 0]\nradius = 0.5\n" + keys +
+                      "[[obstacle]]\nshape = \"box\"\nminimum = [0, 0, 0]\nmaximum = [1, 2, 1]\n" + keys +
+                      "[[obstacle]]\nshape = \"cylinder\"\nradius = 1\nheight = 2\n" + keys);
+    };
+    const render::View opaque = obstacles("");
+    CHECK(opaque.meshObstacles.size() == 1);
+    CHECK(opaque.meshObstacles.at(0).medium == render::Medium{0.0F, 1.5F, 1.0F});
+    const render::View glass = obstacles("transparency = 0.9\nattenuation_distance = 0.3\n");
+    CHECK(glass.sphereObstacles.empty());
+    CHECK(glass.boxObstacles.empty());
+    REQUIRE(glass.meshObstacles.size() == 3);
+    for (const render::MeshObstacle& mesh : glass.meshObstacles) {
+        CHECK(mesh.medium == render::Medium{0.9F, 1.5F, 0.3F});
+        CHECK(mesh.color.y > mesh.color.x);  // the default of glass
+    }
+    CHECK(glass.meshObstacles[0].position == glm::vec3(0.0F, 2.0F, 0.0F));
+    for (const glm::vec3& corner : glass.meshObstacles[0].mesh->positions)
+        CHECK(glm::length(corner) == Approx(0.5F).epsilon(1e-6));  // rounding
+    for (const glm::vec3& normal : glass.meshObstacles[0].mesh->normals) CHECK(glm::length(normal) == Approx(1.0F));
+}
+
 TEST_CASE("the camera and the look reach the renderer") {
     const render::View view =
         viewOf(kBall +
                "[camera]\neye = [1, 2, 3]\ntarget = [4, 5, 7]\nup = [0, 0, 1]\nfov = 90\n"
-               "[look]\nstyle = \"metaballs\"\nmetaball_reach = 3\nlight_direction = [0, 0, 2]\nlight_color = [2, 1, "
+               "[look]\ntransparency = 0.5\nrefractive_index = 1.4\nattenuation_distance = 2\n"
+               "style = \"metaballs\"\nmetaball_reach = 3\nlight_direction = [0, 0, 2]\nlight_color = [2, 1, "
                "0.5]\nshadows = false\n"
                "ambient_sky = [0.1, 0.2, 0.3]\nambient_ground = [0.4, 0.5, 0.6]\nspecular = 0.04\ngloss = 7\n"
                "background_top = \"#ffffff\"\nbackground_bottom = \"#000000\"\n"
@@ -187,6 +211,7 @@ TEST_CASE("the camera and the look reach the renderer") {
     CHECK(view.ambient.ground == glm::vec3(0.4F, 0.5F, 0.6F));
     CHECK(view.surface.specular == 0.04F);
     CHECK(view.surface.glossExponent == 7);
+    CHECK(view.surface.medium == render::Medium{0.5F, 1.4F, 2.0F});
     CHECK(view.background.top == glm::vec3(1.0F));
     CHECK(view.background.bottom == glm::vec3(0.0F));
     REQUIRE(view.ground.has_value());

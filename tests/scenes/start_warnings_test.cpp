@@ -114,6 +114,13 @@ TEST_CASE("Edges that are asked for on an invisible box are reported") {
           Lines{"pile.toml:11:9: edges = true draws nothing where visible is false; leave visible out, or edges"});
 }
 
+TEST_CASE("Transparency of particles that are drawn as spheres is reported") {
+    const std::string ball = "[[body]]\nshape = \"ball\"\nradius = 0.5\n[look]\ntransparency = 0.5\n";
+    CHECK(sceneOf(kTop + ball + "style = \"metaballs\"\n").warnings.empty());
+    CHECK(sceneOf(kTop + ball).warnings ==
+          Lines{"pile.toml:7:16: transparency is that of metaballs; look.style = \"spheres\" draws opaque particles"});
+}
+
 TEST_CASE("A missed error is reported at its key, or at the table where it was not given") {
     const std::string ball = "[[body]]\nshape = \"ball\"\nradius = 0.5\n";
     const std::string message = scenes::missedErrorWarning(sceneOf(kTop + "[physics]\nerror = 0.05\n" + ball), 4.0);

@@ -186,13 +186,69 @@ V mapCoverage(const DepthMap& map, const Occluders& occluders, const Receivers& 
     return hn::IfThenElse(isBetween, found, coverage);
 }
 
-V lightVisibilityAt(const Occluders& occluders, const Receivers& at) {
+/// Light that reaches points.
+struct ReachingLight {
+    V share;    // greatest share of a channel
+    Vec3 tint;  // share of each channel, over that
+};
+
+/// 2 to the power of -depth, by the polynomial of exp2Of() in portable_exponentials.h. @pre depth >= 0
+HWY_INLINE V transmission(V depth) {
+    const V power = hn::Max(hn::Neg(depth), splat(-100.0F));
+    const V whole = hn::Floor(power);
+    const V y = (power - whole - splat(0.5F)) * splat(0.69314718F);
+    V series = splat(1.0F / 720.0F);
+    for (const float coefficient : {1.0F / 120.0F, 1.0F / 24.0F, 1.0F / 6.0F, 0.5F, 1.0F, 1.0F})
+        series = splat(coefficient) + y * series;
+    const VI exponent = hn::ShiftLeft<23>(hn::ConvertTo(DI(), whole) + splatInt(127));
+    return splat(1.41421356F) * series * hn::BitCast(D(), exponent);
+}
+
+/// The share of light of each color that the columns of metaballs along the light let through.
+Vec3 transmissionAt(const OpticalDepthMap& map, const Receivers& at) {
+    const V inverse = splat(1.0F / map.texelSize);
+    const V u = (at.u - splat(map.origin.x)) * inverse;
+    const V v = (at.v - splat(map.origin.y)) * inverse;
+    const V column = hn::Floor(u);
+    const V row = hn::Floor(v);
+    const M inMap = isWithin(column, row, 0.0F, map.columns - 1, map.rows - 1);
+    const VI first = cellIndex(column, row, map.columns, inMap) * splatInt(3);
+    const auto channel = [&](int offset) {
+        const auto texel = [&](int index) {
+            return hn::GatherIndex(D(), map.depths.data(), first + splatInt(3 * index + offset));
+        };
+        const V above = lerp(texel(0), texel(1), u - column);
+        const V below = lerp(texel(map.columns), texel(map.columns + 1), u - column);
+        return transmission(hn::IfThenElseZero(inMap, lerp(above, below, v - row)));
+    };
+    return {channel(0), channel(1), channel(2)};
+}
+
+/// Splits the light of each channel into a common share and a tint.
+ReachingLight splitLight(const Vec3& light) {
+    const V share = hn::Max(hn::Max(light.x, light.y), hn::Max(light.z, splat(0.0F)));
+    const V inverse = hn::IfThenElseZero(share > splat(0.0F), splat(1.0F) / hn::Max(share, splat(1e-30F)));
+    const auto tint = [&](V channel) { return hn::Max(channel, splat(0.0F)) * inverse; };
+    return {share, {tint(light.x), tint(light.y), tint(light.z)}};
+}
+
+ReachingLight lightAt(const Occluders& occluders, const Receivers& at) {
+    const V one = splat(1.0F);
+    const Vec3 white{one, one, one};
     V coverage = splat(0.0F);
     if (occluders.spheres != nullptr) coverage = coverage + spheresCoverage(*occluders.spheres, at, occluders.softness);
     if (occluders.lightBoxes != nullptr) coverage = coverage + boxesCoverage(occluders, at);
+    if (occluders.opticalDepth != nullptr) {
+        if (occluders.meshes != nullptr) coverage = coverage + mapCoverage(*occluders.meshes, occluders, at, true);
+        const V metaballs = mapCoverage(*occluders.metaballs, occluders, at, false);
+        const Vec3 through = transmissionAt(*occluders.opticalDepth, at) * splat(occluders.transparency);
+        ReachingLight light = splitLight(white * (one - coverage) - (white - through) * metaballs);
+        light.share = hn::IfThenElseZero(at.isFacing, light.share);
+        return light;
+    }
     if (occluders.metaballs != nullptr) coverage = coverage + mapCoverage(*occluders.metaballs, occluders, at, false);
     if (occluders.meshes != nullptr) coverage = coverage + mapCoverage(*occluders.meshes, occluders, at, true);
-    return hn::IfThenElseZero(at.isFacing, hn::Max(splat(1.0F) - coverage, splat(0.0F)));
+    return {hn::IfThenElseZero(at.isFacing, hn::Max(one - coverage, splat(0.0F))), white};
 }
 
 V groundSkyVisibility(const SkyVisibilityMap& map, glm::vec3 eye, const Vec3& position) {
@@ -233,7 +289,8 @@ V skyVisibilityAt(const Occluders& occluders, const ShadingGeometry& geometry, V
         floatMask(hn::And(hitId > splatInt(geometry.firstObstacle - 1), hitId < splatInt(kHitMetaballs)));
     if (!none(isObstacle))
         sky = hn::IfThenElse(isObstacle, obstacleSkyVisibility(*occluders.sky, occluders.eye, position, normal), sky);
-    return sky;
+    if (occluders.transparency == 0.0F) return sky;
+    return splat(1.0F) - splat(1.0F - occluders.transparency) * (splat(1.0F) - sky);
 }
 
 void computeLightVisibility(const Occluders& occluders, const ShadingGeometry& geometry, const ShadingPoints& points,
@@ -247,15 +304,15 @@ void computeLightVisibility(const Occluders& occluders, const ShadingGeometry& g
         const Vec3 normal = loadVec3(points.normal, first);
         const V pixelWidth = geometry.frame.perspective ? width * load(&points.depth[first]) : width;
         const M isFacing = dot(normal, splat(light.toLight)) > splat(0.0F);
-        V lit = splat(0.0F);
+        ReachingLight lit{splat(0.0F), splat(glm::vec3(1.0F))};
         if (!none(isFacing))
-            lit = lightVisibilityAt(occluders,
-                                    {dot(position, splat(light.u)), dot(position, splat(light.v)),
-                                     dot(position, splat(light.toLight)), position, normal, pixelWidth, isFacing});
+            lit = lightAt(occluders, {dot(position, splat(light.u)), dot(position, splat(light.v)),
+                                      dot(position, splat(light.toLight)), position, normal, pixelWidth, isFacing});
         const VI hitId = loadInt(&points.hitId[first]);
         const V sky =
             occluders.sky != nullptr ? skyVisibilityAt(occluders, geometry, hitId, position, normal) : splat(1.0F);
-        store(lit, &visibility.light[first]);
+        store(lit.share, &visibility.light[first]);
+        if (occluders.opticalDepth != nullptr) storeVec3(lit.tint, visibility.tint, first);
         store(sky, &visibility.sky[first]);
         if (visibility.hasGlow)
             storeVec3(glowLightAt(*occluders.glow, occluders.eye, position, normal), visibility.glow, first);

@@ -12,6 +12,7 @@
 #include "render/prepare/ambient_occlusion.h"
 #include "render/prepare/light_space.h"
 #include "render/prepare/lighting/glow_light.h"
+#include "render/prepare/optical_depth_map.h"
 
 namespace render {
 
@@ -31,6 +32,8 @@ struct Occluders {
     const SkyVisibilityGrid* sky = nullptr;       ///< sky visibility, null without ambient occlusion
     const SkyVisibilityMap* groundSky = nullptr;  ///< sky visibility of the ground, null without ambient occlusion
     const GlowGrid* glow = nullptr;               ///< light of particles, null if none glows
+    const OpticalDepthMap* opticalDepth = nullptr;  ///< of transparent metaballs, null if they are opaque
+    float transparency = 0.0F;                      ///< of the metaballs
 
     bool isEmpty() const {
         return spheres == nullptr && metaballs == nullptr && meshes == nullptr && lightBoxes == nullptr &&
@@ -46,6 +49,8 @@ struct LightVisibility {
         64) std::array<float, kTilePixels> sky;  ///< share of the sky; 1 on particles, for which ShadingPoints has it
     alignas(64) TileVec3 glow;                   ///< linear RGB of the light of particles; only with hasGlow
     bool hasGlow = false;
+    /// The share of `light` that each channel has; only with Occluders::opticalDepth.
+    alignas(64) TileVec3 tint;
 };
 
 /// Computes how much light and sky reaches each shading point. The values of a point depend on that point alone, bit

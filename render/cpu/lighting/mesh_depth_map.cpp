@@ -51,6 +51,7 @@ class MeshHeights {
  private:
     CellLists listByBand() const {
         const auto items = listAll<CellItem>(meshes_.triangles.size(), [&](std::size_t k, std::vector<CellItem>& list) {
+            if (!meshes_.isOpaque(k)) return;
             const auto& [a, b, c] = meshes_.triangles[k].corners;
             const std::array<glm::vec3, 3> at{corners_[a], corners_[b], corners_[c]};
             if (!isTurnedAway(at)) return;

@@ -166,7 +166,8 @@ Vec3 rim(const Shading& shading, const ShadingInputs& at) {
 }
 
 /// The body's color times ambient, diffuse and transmitted light and that of particles.
-Vec3 bodyColor(const Shading& shading, const ShadingInputs& at) {
+/// @param reaching  color of the light that reaches the point
+Vec3 bodyColor(const Shading& shading, const ShadingInputs& at, const Vec3& reaching) {
     const Surface& surface = shading.surface;
     const V one = splat(1.0F);
     const Vec3 lightColor = splat(shading.light.color);
@@ -179,7 +180,7 @@ Vec3 bodyColor(const Shading& shading, const ShadingInputs& at) {
     Vec3 ambient = skyToward(shading.ambient, at.normal.y);
     if (shading.ambient.occlusion > 0.0F)
         ambient = ambient * (one - splat(shading.ambient.occlusion) * (one - at.skyAlong));
-    Vec3 light = ambient + lightColor * (cosine * at.lightVisibility);
+    Vec3 light = ambient + reaching * (cosine * at.lightVisibility);
     if (surface.translucency > 0.0F) {
         const V behind = splat(0.25F) + positive(hn::Neg(facing));
         const Vec3 through = skyToward(shading.ambient, hn::Neg(at.normal.y)) + lightColor * behind;
@@ -206,10 +207,21 @@ Vec3 shoulder(const Vec3& color) {
     return select(peak > splat(0.7F), bent, color);
 }
 
+/// What a transparent body shows of its own, and mirrors in addition to the terms of `color`.
+struct OwnLight {
+    V bodyShare;
+    Vec3 added;
+    Vec3 tint;  // of the light that reaches the point
+};
+
 /// The sum of all terms of `color` in shading_model.h, before it is clamped.
-Vec3 surfaceColor(const Shading& shading, const ShadingInputs& at) {
+/// @param own  null if the points are opaque
+Vec3 surfaceColor(const Shading& shading, const ShadingInputs& at, const OwnLight* own = nullptr) {
     const Surface& surface = shading.surface;
-    Vec3 color = bodyColor(shading, at);
+    Vec3 reaching = splat(shading.light.color);
+    if (own != nullptr) reaching = reaching * own->tint;
+    Vec3 color = bodyColor(shading, at, reaching);
+    if (own != nullptr) color = color * own->bodyShare + own->added;
     // Obstacles and the ground are matt: they have none of the following terms.
     if (!none(at.isParticle > splat(0.0F))) {
         if (surface.specular > 0.0F || surface.metal > 0.0F) {
@@ -217,7 +229,7 @@ Vec3 surfaceColor(const Shading& shading, const ShadingInputs& at) {
             V share = hn::IfThenElseZero(isFacing, at.isParticle * at.lightVisibility);
             if (shading.ambient.occlusion > 0.0F)
                 share = share * (splat(1.0F) - splat(shading.ambient.occlusion) * (splat(1.0F) - at.skyMirrored));
-            color = color + splat(shading.light.color) * highlight(shading, at) * share;
+            color = color + reaching * highlight(shading, at) * share;
         }
         if (shading.light.rim != glm::vec3(0.0F)) color = color + rim(shading, at) * at.isParticle;
         if (surface.reflection > 0.0F) color = color + mirrored(shading, at) * at.isParticle;
@@ -226,16 +238,21 @@ Vec3 surfaceColor(const Shading& shading, const ShadingInputs& at) {
     return shading.exposure > 0.0F ? shoulder(color * splat(shading.exposure)) : color;
 }
 
+/// Directions to the eye, or to where a ray comes from that transparent bodies have refracted, unit length.
+Vec3 towardEye(const CameraFrame& frame, const ShadingPoints& points, const TransparentShading* transparency,
+               std::size_t first) {
+    if (transparency != nullptr) return loadVec3(transparency->direction, first) * splat(-1.0F);
+    const Vec3 direction =
+        worldRay(frame, imagePointAt(frame, load(&points.x[first]), load(&points.y[first]))).direction;
+    return direction * (splat(-1.0F) / hn::Sqrt(dot(direction, direction)));
+}
+
 ShadingInputs loadInputs(const ShadingGeometry& geometry, const ShadingPoints& points,
-                         const LightVisibility* visibility, VI hitId, std::size_t first) {
+                         const LightVisibility* visibility, const Vec3& toEye, VI hitId, std::size_t first) {
     const V one = splat(1.0F);
-    const CameraFrame& frame = geometry.frame;
     const M isMetaball = floatMask(hitId > splatInt(kHitMetaballs - 1));
     const M isParticleSphere = floatMask(hn::And(hitId > splatInt(-1), hitId < splatInt(geometry.firstObstacle)));
     const M isParticle = hn::Or(isMetaball, isParticleSphere);
-    const Vec3 direction =
-        worldRay(frame, imagePointAt(frame, load(&points.x[first]), load(&points.y[first]))).direction;
-    const Vec3 toEye = direction * (splat(-1.0F) / hn::Sqrt(dot(direction, direction)));
     const V light = visibility != nullptr ? load(&visibility->light[first]) : one;
     const V sky = visibility != nullptr ? load(&visibility->sky[first]) : one;
     const Vec3 particleSky = geometry.hasSky ? loadVec3(points.sky, first) : Vec3{one, one, one};
@@ -257,11 +274,21 @@ HWY_INLINE Vec3 backgroundAt(const ShadingGeometry& geometry, const Shading& sha
 }
 
 void shade(const Shading& shading, const ShadingGeometry& geometry, const ShadingPoints& points,
-           const LightVisibility* visibility, PointColors& colors) {
+           const LightVisibility* visibility, const TransparentShading* transparency, PointColors& colors) {
     const D d;
     for (std::size_t first = 0; first < points.count; first += hn::Lanes(d)) {
         const VI hitId = loadInt(&points.hitId[first]);
-        Vec3 color = surfaceColor(shading, loadInputs(geometry, points, visibility, hitId, first));
+        const Vec3 toEye = towardEye(geometry.frame, points, transparency, first);
+        const ShadingInputs at = loadInputs(geometry, points, visibility, toEye, hitId, first);
+        Vec3 color;
+        if (transparency == nullptr) {
+            color = surfaceColor(shading, at);
+        } else {
+            const Vec3 tint =
+                transparency->tint != nullptr ? loadVec3(*transparency->tint, first) : splat(glm::vec3(1.0F));
+            const OwnLight own{load(&transparency->bodyShare[first]), loadVec3(transparency->added, first), tint};
+            color = surfaceColor(shading, at, &own);
+        }
         const M isGround = floatMask(hitId == splatInt(kHitGround));
         const M isBackground = floatMask(hitId == splatInt(kHitBackground));
         if (!none(hn::Or(isGround, isBackground))) {
@@ -345,8 +372,8 @@ Shading shadingOf(const View& view) {
 }
 
 void shade(const Shading& shading, const ShadingGeometry& geometry, const ShadingPoints& points,
-           const LightVisibility* visibility, PointColors& colors) {
-    HWY_DYNAMIC_DISPATCH(shade)(shading, geometry, points, visibility, colors);
+           const LightVisibility* visibility, const TransparentShading* transparency, PointColors& colors) {
+    HWY_DYNAMIC_DISPATCH(shade)(shading, geometry, points, visibility, transparency, colors);
 }
 
 void colorBackgroundTile(const ShadingGeometry& geometry, const Shading& shading, bool isGround,

@@ -2,6 +2,7 @@
 // picture_colors.cpp.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -34,10 +35,19 @@ struct PointColors {
     alignas(64) TileVec3 rgb;
 };
 
+/// What shading needs beside the points themselves in a view with transparent bodies.
+struct TransparentShading {
+    alignas(64) TileVec3 direction;                        ///< of the ray that met each point, unit length
+    alignas(64) std::array<float, kTilePixels> bodyShare;  ///< share of the body's color that is seen
+    const TileVec3* tint = nullptr;  ///< of the light that reaches each point; null if it is that of the light
+    alignas(64) TileVec3 added;      ///< light that is mirrored in addition
+};
+
 /// Colors shading points. The color of a point depends on that point alone, bit for bit, not on the instruction set.
-/// @param visibility  null where nothing casts shadows or occludes the sky
+/// @param visibility    null where nothing casts shadows or occludes the sky
+/// @param transparency  null if all points are opaque and met by rays from the eye
 void shade(const Shading& shading, const ShadingGeometry& geometry, const ShadingPoints& points,
-           const LightVisibility* visibility, PointColors& colors);
+           const LightVisibility* visibility, const TransparentShading* transparency, PointColors& colors);
 
 /// A pixel in sRGB: 8 bits per channel, red in the lowest byte.
 using PixelColor = std::uint32_t;

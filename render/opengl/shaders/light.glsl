@@ -150,7 +150,37 @@ float mapCoverage(sampler2DShadow map, vec4 grid, vec4 size, vec3 position, vec3
 }
 #endif
 
+#if defined(METABALL_MEDIUM) || defined(TRANSPARENCY)
+uniform vec4 metaballMedium;  // transparency, refractive index, 1 / attenuation distance (1/m)
+#endif
+
+#ifdef LIGHT_TINT
+uniform samplerBuffer opticalDepths;  // of columns of metaballs along the light, row by row, for red, green and blue
+uniform vec4 opticalGrid;             // middle of the first texel (m), 1 / side of a texel (1/m), columns
+uniform vec4 opticalRows;             // rows
+
+// The share of light of each color that the column of metaballs along the light lets through.
+vec3 transmissionAt(vec3 position) {
+    vec2 at = (vec2(dot(position, lightU.xyz), dot(position, lightV.xyz)) - opticalGrid.xy) * opticalGrid.z;
+    ivec2 cell = ivec2(floor(at));
+    vec2 part = at - floor(at);
+    ivec2 size = ivec2(opticalGrid.w, opticalRows.x);
+    if (any(lessThan(cell, ivec2(0))) || any(greaterThanEqual(cell, size - 1))) return vec3(1.0);
+    int first = cell.y * size.x + cell.x;
+    vec3 upper = mix(texelFetch(opticalDepths, first).rgb, texelFetch(opticalDepths, first + 1).rgb, part.x);
+    first += size.x;
+    vec3 lower = mix(texelFetch(opticalDepths, first).rgb, texelFetch(opticalDepths, first + 1).rgb, part.x);
+    return exp2(-mix(upper, lower, part.y));
+}
+#endif
+
+// The share of the light that reaches a point and, where metaballs let some of it through, its tint.
+#ifdef LIGHT_TINT
+float lightVisibility(vec3 position, vec3 normal, float depth, out vec3 tint) {
+    tint = vec3(1.0);
+#else
 float lightVisibility(vec3 position, vec3 normal, float depth) {
+#endif
     bool isFacing = dot(normal, toLight.xyz) > 0.0;
     float pixelWidth = pixelWidthAt(depth);
     float coverage = 0.0;
@@ -164,8 +194,11 @@ float lightVisibility(vec3 position, vec3 normal, float depth) {
     coverage += boxCoverage(position, at, pixelWidth, isFacing);
 #endif
 #ifdef METABALL_SHADOWS
-    coverage += mapCoverage(depthMap, depthMapGrid, depthMapSize, position, normal, 1.5 * depthMapGrid.z,
-                            0.5 * depthMapGrid.z);
+    float byMetaballs = mapCoverage(depthMap, depthMapGrid, depthMapSize, position, normal, 1.5 * depthMapGrid.z,
+                                    0.5 * depthMapGrid.z);
+#ifndef LIGHT_TINT
+    coverage += byMetaballs;
+#endif
 #endif
 #ifdef MESH_SHADOWS
     // Above the surfaces of meshes that light does not reach, which alone are in their map, the point need not be
@@ -174,7 +207,14 @@ float lightVisibility(vec3 position, vec3 normal, float depth) {
     float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
     coverage += mapCoverage(meshDepthMap, meshMapGrid, meshMapSize, position, normal, 1.5 * meshMapGrid.z * sine, 0.0);
 #endif
+#ifdef LIGHT_TINT
+    vec3 reaching = 1.0 - coverage - byMetaballs * (1.0 - metaballMedium.x * transmissionAt(position));
+    float greatest = max(max(reaching.x, reaching.y), max(reaching.z, 0.0));
+    tint = greatest > 0.0 ? max(reaching, 0.0) / greatest : vec3(0.0);
+    return isFacing ? greatest : 0.0;
+#else
     return isFacing ? max(1.0 - coverage, 0.0) : 0.0;
+#endif
 }
 
 #ifdef GROUND_OCCLUSION

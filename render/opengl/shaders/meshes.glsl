@@ -30,6 +30,9 @@ void setMesh(int index, inout Point at) {
     at.depth = meshHit.depth;
     at.normal = meshHit.normal;
     at.albedo = unpackColor(meshHit.color);
+#ifdef TRANSPARENCY
+    at.mesh = int(meshHit.mesh);
+#endif
 }
 
 // The sample of a pixel that is nearest to a point of the picture, and where it lies.
@@ -84,6 +87,9 @@ void setMesh(int index, inout Point at) {
     }
     at.depth = depth / max(count, 1.0);
     at.normal = normalize(normal);
+#ifdef TRANSPARENCY
+    at.mesh = int(meshHitsOfPixel[index].mesh);
+#endif
 }
 
 uvec4 nearestMeshHit(ivec2 pixel, vec2 point, out vec2 at) {

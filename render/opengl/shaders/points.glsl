@@ -1,4 +1,7 @@
-// The point of a surface that a ray through the picture shows, given what it hits.
+// The point of a surface that a ray through the picture shows, given what it hits, and its color.
+#ifdef TRANSPARENCY
+#include "transparency.glsl"
+#endif
 
 vec3 mirroredRay(vec3 direction, vec3 normal) {
     return direction - 2.0 * dot(direction, normal) * normal;
@@ -76,6 +79,14 @@ Point pointOf(int id, Ray ray) {
     at.light = 1.0;
     at.sky = vec3(1.0);
     at.glow = vec3(0.0);
+#ifdef LIGHT_TINT
+    at.tint = vec3(1.0);
+#endif
+#ifdef TRANSPARENCY
+    at.mesh = -1;
+    at.bodyShare = 1.0;
+    at.added = vec3(0.0);
+#endif
 #ifdef GROUND
     if (id == kHitGround) setGround(ray, at);
 #endif
@@ -95,12 +106,14 @@ Point pointOf(int id, Ray ray) {
     return at;
 }
 
-// Linear color of what the ray through a point of the picture shows, given what it hits.
-vec3 colorOf(int id, vec2 pixel) {
-    Ray ray = worldRay(imagePoint(pixel));
-    Point at = pointOf(id, ray);
+// Sets how much light and sky reaches a point.
+void receiveLight(int id, inout Point at) {
 #ifdef SHADOWS
+#ifdef LIGHT_TINT
+    at.light = lightVisibility(at.position, at.normal, at.depth, at.tint);
+#else
     at.light = lightVisibility(at.position, at.normal, at.depth);
+#endif
 #endif
 #ifdef GROUND_OCCLUSION
     if (id == kHitGround) at.sky.x = groundSkyVisibility(at.position);
@@ -111,9 +124,50 @@ vec3 colorOf(int id, vec2 pixel) {
 #ifdef GLOW_LIGHT
     at.glow = glowLight(at.position, at.normal);
 #endif
+#ifdef METABALL_MEDIUM
+    if (at.isParticle == 0.0) at.sky.x = 1.0 - (1.0 - metaballMedium.x) * (1.0 - at.sky.x);
+#endif
+}
+
+// Linear color of a point that has received its light. @param row  of pixels, whose background the ground fades into
+vec3 pointColor(int id, Point at, float row) {
     vec3 color = surfaceColor(at);
 #ifdef GROUND
-    if (id == kHitGround) color = fadedGround(color, at.position, pixel.y);
+    if (id == kHitGround) color = fadedGround(color, at.position, row);
 #endif
-    return id == kHitBackground ? background(pixel.y) : color;
+    return id == kHitBackground ? background(row) : color;
+}
+
+#ifdef TRANSPARENCY
+// The color of a transparent body, and of what is seen through it.
+// @param at  a point of the body, which has received no light yet
+vec3 throughColor(int id, Point at, float transparency, float row) {
+    int endId;
+    Point end;
+    Walk walk = followRay(at, id, endId, end);
+    receiveLight(id, at);
+    at.bodyShare = 1.0 - transparency;
+    at.added = walk.mirrored;
+    if (id < kHitMetaballs) at.added += mirroredByMesh(at);
+    vec3 own = clamp(pointColor(id, at, row), 0.0, 1.0);
+    float endRow = backgroundRow(walk.direction, row);
+    vec3 behind = background(endRow);
+    if (endId != kHitBackground) {
+        receiveLight(endId, end);
+        behind = pointColor(endId, end, endRow);
+    }
+    return own + transparency * walk.weight * clamp(behind, 0.0, 1.0);
+}
+#endif
+
+// Linear color of what the ray through a point of the picture shows, given what it hits.
+vec3 colorOf(int id, vec2 pixel) {
+    Ray ray = worldRay(imagePoint(pixel));
+    Point at = pointOf(id, ray);
+#ifdef TRANSPARENCY
+    float transparency = id >= kHitMetaballs ? metaballMedium.x : at.mesh >= 0 ? mediumOfMesh(at.mesh).transparency : 0.0;
+    if (transparency > 0.0) return throughColor(id, at, transparency, pixel.y);
+#endif
+    receiveLight(id, at);
+    return pointColor(id, at, pixel.y);
 }

@@ -10,7 +10,24 @@ struct Point {
     float light;      // share of the light that reaches the point
     vec3 sky;         // sky visibility along the normal, against it and along the mirrored ray
     vec3 glow;        // light of glowing particles
+#ifdef LIGHT_TINT
+    vec3 tint;        // of the light that reaches the point
+#endif
+#ifdef TRANSPARENCY
+    int mesh;         // number of the mesh; -1 for other things
+    float bodyShare;  // share of the body's color that is seen
+    vec3 added;       // light that a transparent body mirrors in addition
+#endif
 };
+
+// The color of the light that reaches a point.
+vec3 reachingColor(Point at) {
+#ifdef LIGHT_TINT
+    return lightColor.rgb * at.tint;
+#else
+    return lightColor.rgb;
+#endif
+}
 
 vec3 skyLight(float up) {
     return mix(skyBelow.rgb, sky.rgb, 0.5 + 0.5 * up);
@@ -35,7 +52,7 @@ vec3 highlight(Point at) {
 #ifdef OCCLUSION
     share *= 1.0 - sky.w * (1.0 - at.sky.z);
 #endif
-    return lightColor.rgb * fresnel(at.albedo, dot(at.toEye, halfway)) * (body.w * peak * share);
+    return reachingColor(at) * fresnel(at.albedo, dot(at.toEye, halfway)) * (body.w * peak * share);
 }
 #endif
 
@@ -75,7 +92,7 @@ vec3 bodyColor(Point at) {
 #ifdef OCCLUSION
     light *= 1.0 - sky.w * (1.0 - at.sky.x);
 #endif
-    light += lightColor.rgb * (cosine * at.light);
+    light += reachingColor(at) * (cosine * at.light);
 #ifdef TRANSLUCENCY
     vec3 through = skyLight(-at.normal.y) + lightColor.rgb * (0.25 + max(-facing, 0.0));
     light += through * (at.isParticle * body.x * at.sky.y);
@@ -104,6 +121,9 @@ vec3 shoulder(vec3 color) {
 
 vec3 surfaceColor(Point at) {
     vec3 color = bodyColor(at);
+#ifdef TRANSPARENCY
+    color = color * at.bodyShare + at.added;
+#endif
 #ifdef HIGHLIGHT
     color += highlight(at);
 #endif

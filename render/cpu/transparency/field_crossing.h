@@ -1,0 +1,53 @@
+// Where a ray of any direction crosses the surface of metaballs. Called by light_path.cpp.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "render/prepare/ball_cells.h"
+
+namespace render {
+
+inline constexpr float kNoCrossing = std::numeric_limits<float>::infinity();
+
+/// A part of a ray, in the coordinates of the balls' cells. A point at the distance t is origin + t direction.
+struct RayPart {
+    glm::vec3 origin{0.0F};
+    glm::vec3 direction{0.0F, 0.0F, -1.0F};  ///< unit length
+    float from = 0.0F;                       ///< distances at which the part begins and ends, m
+    float to = kNoCrossing;
+};
+
+/// The field of metaballs and the sampling of rays through it.
+struct CastField {
+    const BallCells& cells;
+    float threshold = 0.5F;  ///< value of the field at the surface
+    float step = 0.05F;      ///< greatest distance between two samples on a ray, m
+};
+
+/// A ball's share of the field at a point.
+struct BallShare {
+    std::int32_t particle = 0;  ///< index in the view of the particle that the ball stands for
+    float kernel = 0.0F;        ///< value of its kernel
+};
+
+/// A point of the surface.
+struct SurfacePoint {
+    float distance = kNoCrossing;   ///< from the ray's origin, m; kNoCrossing if there is none
+    glm::vec3 normal{0.0F};         ///< unit normal that points out of the metaballs
+    std::vector<BallShare> shares;  ///< the balls whose kernels reach the point
+};
+
+/// Finds the first point of a part of a ray at which the field is no longer on the side of the threshold that the ray
+/// is on. Bodies and gaps that are thinner than a step may be missed where neither the samples around them nor the
+/// field's slope there show them.
+/// @param isInside  whether the ray begins inside the metaballs, whatever the field is where the part begins
+/// @param found     overwritten; its memory is reused
+///
+/// The result depends on the ray and the field alone, bit for bit, not on the instruction set.
+void findCrossing(const CastField& field, const RayPart& ray, bool isInside, SurfacePoint& found);
+
+}  // namespace render
