@@ -172,7 +172,41 @@ std::vector<PictureRow> measurePicture(const PictureSettings& settings, render::
     return rows;
 }
 
+/// A look that the table of looks has.
+struct NamedLook {
+    const char* name = "";
+    void (*add)(render::View&) = nullptr;  ///< changes the look of the dam break
+};
+
+constexpr NamedLook kLooks[] = {{"as it is", [](render::View&) {}}, {"transparent", [](render::View& view) {
+                                                                         view.surface.translucency = 0.0F;
+                                                                         view.surface.absorption = 0.0F;
+                                                                         view.surface.medium = {0.9F, 1.33F, 2.0F};
+                                                                     }}};
+
 }  // namespace
+
+std::vector<LookRow> measureLooks(const PictureSettings& settings, render::Context* context,
+                                  const RowsListener<LookRow>& listener) {
+    const PictureSubject subject{render::Style::metaballs, settings.particles.front(), settings.sizes.front()};
+    std::vector<LookRow> rows;
+    const std::vector<ComparedRenderer> renderers = makeRenderers(context, subject.size, subject.quality);
+    for (const NamedLook& look : kLooks) {
+        render::View view = damBreakView(subject.particles, subject.style);
+        look.add(view);
+        const std::vector<ExactWindow> exact = exactWindows(settings, view, subject.size);
+        const std::vector<DrawingTimes> times = measureDrawing(renderers, framesOf(view, settings.frames));
+        for (std::size_t k = 0; k < renderers.size(); ++k) {
+            render::Renderer& renderer = *renderers[k].renderer;
+            LookRow& row = rows.emplace_back(LookRow{subject, look.name, times[k].draw});
+            row.renderer = renderers[k].kind;
+            row.error = errorOf(renderer.draw(view), renderer.visiblePoints(view), view, exact);
+            row.timeRatio = row.draw / rows[k].draw;
+            listener(rows);
+        }
+    }
+    return rows;
+}
 
 std::vector<PictureRow> measurePictures(const PictureSettings& settings, render::Context* context,
                                         const RowsListener<PictureRow>& listener) {

@@ -100,6 +100,14 @@ struct PictureSettings {
     std::string videoPath;   ///< file of the video that encoding is timed with; overwritten
 };
 
+/// What the study measures of a look that is not that of the dam break.
+struct LookRow : PictureSubject {
+    std::string look;   ///< what it has in addition
+    double draw = 0.0;  ///< median time to draw a frame and read it back, s
+    PictureError error = {};
+    double timeRatio = 1.0;  ///< draw over that of the dam break's own look by the same renderer
+};
+
 /// Called after each new row of a table, with all rows so far.
 template <typename Row>
 using RowsListener = std::function<void(const std::vector<Row>&)>;
@@ -109,6 +117,13 @@ using RowsListener = std::function<void(const std::vector<Row>&)>;
 /// @throws render::SystemError
 std::vector<PictureRow> measurePictures(const PictureSettings& settings, render::Context* context,
                                         const RowsListener<PictureRow>& listener);
+
+/// Measures the dam break as metaballs in normal quality with each of some more looks, after its own, by every
+/// renderer. Particles and size are the first of the settings.
+/// @param context  as for measurePictures()
+/// @throws render::SystemError
+std::vector<LookRow> measureLooks(const PictureSettings& settings, render::Context* context,
+                                  const RowsListener<LookRow>& listener);
 
 /// How steady pictures of a still scene are while the camera moves slowly. I_k is picture k, in 8-bit steps.
 struct FlickerRow : PictureSubject {
@@ -158,6 +173,7 @@ double fieldVolume(const render::View& view, double spacing);
 
 /// The tables of the study as CSV with a header line.
 std::string picturesCsv(const std::vector<PictureRow>& rows);
+std::string looksCsv(const std::vector<LookRow>& rows);
 std::string flickerCsv(const std::vector<FlickerRow>& rows);
 std::string smoothingCsv(const std::vector<SmoothingRow>& rows);
 

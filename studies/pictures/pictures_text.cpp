@@ -92,6 +92,14 @@ std::string picturesCsv(const std::vector<PictureRow>& rows) {
     return csv;
 }
 
+std::string looksCsv(const std::vector<LookRow>& rows) {
+    std::string csv = "look," + std::string(kSubjectColumns) + ",draw_ms,time_ratio,rmse,ssim\n";
+    for (const LookRow& row : rows)
+        csv += row.look + "," + subjectFields(row) + "," +
+               csvFields(1e3 * row.draw, row.timeRatio, row.error.rmse, row.error.ssim) + "\n";
+    return csv;
+}
+
 std::string flickerCsv(const std::vector<FlickerRow>& rows) {
     std::string csv = std::string(kSubjectColumns) + ",change,jerk\n";
     for (const FlickerRow& row : rows) csv += subjectFields(row) + "," + csvFields(row.change, row.jerk) + "\n";

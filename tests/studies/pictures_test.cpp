@@ -139,6 +139,33 @@ TEST_CASE("Better quality is steadier under a camera that moves slowly", "[pictu
     CHECK(std::count(csv.begin(), csv.end(), '\n') == static_cast<std::ptrdiff_t>(1 + all.size()));
 }
 
+TEST_CASE("Looks are measured after the dam break's own, by every renderer", "[pictures]") {
+    const auto context = openGl();
+    PictureSettings settings;
+    settings.particles = {800};
+    settings.sizes = {kSize};
+    settings.frames = 1;
+    settings.windowColumns = 2;
+    settings.windowRows = 1;
+    settings.samplesPerAxis = 2;
+    std::size_t told = 0;
+    const std::vector<LookRow> rows = measureLooks(
+        settings, context.get(), [&](const std::vector<LookRow>& soFar) { CHECK(soFar.size() == ++told); });
+    CHECK(told == rows.size());
+    REQUIRE(rows.size() >= 2 * (context ? 2 : 1));
+    CHECK(rows.front().look == "as it is");
+    for (const LookRow& row : rows) {
+        INFO(row.look << ", " << nameOf(row.renderer) << ": RMSE " << row.error.rmse << ", SSIM " << row.error.ssim);
+        CHECK(row.draw > 0.0);
+        CHECK(row.timeRatio > 0.0);
+        // Against four exact samples a pixel (measured: at least 0.97); another look would be below 0.9.
+        CHECK(row.error.ssim > 0.95);
+    }
+    const std::string csv = looksCsv(rows);
+    CHECK(csv.find("\ntransparent,metaballs,800,") != std::string::npos);
+    CHECK(std::count(csv.begin(), csv.end(), '\n') == static_cast<std::ptrdiff_t>(1 + rows.size()));
+}
+
 TEST_CASE("A single particle keeps its sphere's volume, and a pool keeps its own with smoothing", "[pictures]") {
     render::View view;
     view.style = Style::metaballs;

@@ -30,6 +30,7 @@ struct AccuracyRun {
 
 struct PictureResults {
     std::vector<studies::PictureRow> rows;
+    std::vector<studies::LookRow> looks;
     std::vector<studies::FlickerRow> flicker;
     std::vector<studies::SmoothingRow> smoothing;
     std::string openGl;      ///< which OpenGL was measured, or why none was

@@ -112,6 +112,9 @@ PictureResults measure(const PicturesOptions& options, const studies::PictureSet
         writeFile(folder / "pictures.csv", studies::picturesCsv(rows));
         reportRow(options, rows.back());
     });
+    results.looks = studies::measureLooks(settings, context, [&](const std::vector<studies::LookRow>& rows) {
+        writeFile(folder / "looks.csv", studies::looksCsv(rows));
+    });
     results.flicker = studies::measureFlicker(flickerSettingsFor(options), context,
                                               [&](const std::vector<studies::FlickerRow>& rows) {
                                                   writeFile(folder / "flicker.csv", studies::flickerCsv(rows));
@@ -139,6 +142,11 @@ std::string summaryOf(const PictureResults& results) {
                               fmt::format("{:.2f}", row.rmseRatio), fmt::format("{:.5f}", row.error.ssim),
                               fmt::format("{:.4f}", 100.0 * row.error.wrongHits)});
     std::string text = textTable(table) + results.openGl + "\n";
+    for (const studies::LookRow& row : results.looks)
+        text +=
+            fmt::format("{}, {}, {} particles: {:.4g} ms, {:.2f} times the look as it is, RMSE {:.3f}, SSIM {:.5f}\n",
+                        row.look, studies::nameOf(row.renderer), row.particles, 1e3 * row.draw, row.timeRatio,
+                        row.error.rmse, row.error.ssim);
     for (const studies::FlickerRow& row : results.flicker)
         text += fmt::format("{} {}, {}, {} particles, {}x{}: camera moving, change {:.3f}, jerk {:.3f} steps of 255\n",
                             studies::nameOf(row.style), studies::nameOf(row.quality), studies::nameOf(row.renderer),
