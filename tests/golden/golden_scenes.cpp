@@ -45,7 +45,7 @@ const std::vector<GoldenScene>& scenes() {
         {"splash", 12, 40, {}},
         {"stamp", 25, 50, {"physics.error=2"}},
         {"sticky", 6, 20, {}},
-        {"wine", 25, 60, {}, true},
+        {"wine", 20, 45, {}, true},
         {"word", 15, 24, {}},
     };
     return kScenes;
