@@ -13,7 +13,7 @@
 #include "render/cpu/metaballs/metaball_hits.h"
 #include "render/cpu/raster/lines.h"
 #include "render/cpu/raster/primary_hits.h"
-#include "render/prepare/tiles.h"
+#include "render/prepare/cells/tiles.h"
 
 namespace render {
 

@@ -17,7 +17,7 @@
 #include <glm/glm.hpp>
 
 #include "render/picture/view.h"
-#include "render/prepare/skin.h"
+#include "render/prepare/skin/skin.h"
 
 namespace render {
 

@@ -11,7 +11,7 @@
 #include "render/mesh/isosurface.h"
 #include "render/mesh/sampled_field.h"
 #include "render/mesh/separate_sheets.h"
-#include "render/prepare/skin.h"
+#include "render/prepare/skin/skin.h"
 
 namespace render {
 namespace {

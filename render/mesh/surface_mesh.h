@@ -1,5 +1,5 @@
 // The surface of metaballs as a closed mesh of triangles, with normals, colors and velocities. Called by `globular
-// mesh` for each frame. The field is that of the renderers (render/prepare/skin.h).
+// mesh` for each frame. The field is that of the renderers (render/prepare/skin/skin.h).
 #pragma once
 
 #include <span>

@@ -8,7 +8,7 @@
 #include <tbb/parallel_for.h>
 #include <glm/glm.hpp>
 
-#include "render/prepare/tiles.h"
+#include "render/prepare/cells/tiles.h"
 
 namespace render {
 

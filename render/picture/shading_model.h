@@ -6,7 +6,7 @@
 //
 // n is the unit normal, v the unit vector to the eye, l the one to the light. Products of colors are taken channel by
 // channel. The fields of Surface describe the particles; on obstacles and the ground, which are matt, they count as 0.
-// A term whose strength is 0 is not computed. Particles are all but the strays of render/prepare/strays.h, which
+// A term whose strength is 0 is not computed. Particles are all but the strays of render/prepare/cells/strays.h, which
 // neither are seen nor change what is seen.
 //
 //   h               = normalize(l + v), halfway between the two
@@ -64,7 +64,8 @@
 // and O(x) is interpolated trilinearly between the centers of the cubes around x + 0.75 s e, a little ahead so that a
 // surface does not hide the sky from itself. A particle has the values of its center all over, the surface of metaballs
 // the mean of the balls' values weighted by their kernels, obstacles and the ground those of the point itself. Sky is
-// seen through metaballs whose medium has a transparency t: for obstacles and the ground O counts as 1 - (1 - t)(1 - O).
+// seen through metaballs whose medium has a transparency t: for obstacles and the ground O counts as 1 - (1 - t)(1 -
+// O).
 //
 // Particles with glow light what is around them. A particle of radius a has in the direction of a unit vector u the
 // intensity glow albedo^2 a^2 skyVisibility(u), with the values O of its center: those inside of a heap emit little.
@@ -142,16 +143,16 @@
 // ray is mirrored whole. On a length x through a medium of the color C and the attenuation distance A, W is multiplied
 // by C^(x/A) (Beer's law). C is the color of the surface at the point where the ray comes into the medium, but at least
 // kDarkestMedium. The ray ends at the first surface that is not transparent, at the ground, or in the background; there
-// it shows the background of the row of pixels in which the eye sees its direction, the nearest row if none does, and in
-// parallel projection that of its own pixel. It also ends in the background behind its kMostSurfaces-th surface. Rays
-// whose W is below kFaintest in all channels may be left out.
+// it shows the background of the row of pixels in which the eye sees its direction, the nearest row if none does, and
+// in parallel projection that of its own pixel. It also ends in the background behind its kMostSurfaces-th surface.
+// Rays whose W is below kFaintest in all channels may be left out.
 //
 // The media. Outside of all bodies is air, of index 1. Where a mesh and metaballs overlap, the mesh counts: a glass
 // that liquid touches. Particles leave a layer of air between bodies in contact that is none in nature. A layer of air
 // on the ray counts as thin if it is less deep than the particles' mean radius, measured across the surface of the
-// mesh, obstacle or ground that bounds it, and less long than kLongestLayer of them. Metaballs reach through a thin layer
-// to whatever solid is behind or, where the ray comes out of a mesh, before them; a mesh reaches through one to an
-// opaque solid or the ground.
+// mesh, obstacle or ground that bounds it, and less long than kLongestLayer of them. Metaballs reach through a thin
+// layer to whatever solid is behind or, where the ray comes out of a mesh, before them; a mesh reaches through one to
+// an opaque solid or the ground.
 #pragma once
 
 #include <cstddef>
@@ -199,8 +200,8 @@ inline constexpr float kDarkestMedium = 0.001F;
 /// Volume of a body of metaballs for each of its particles, in cubes of the particle's radius: 4/3 pi over the share of
 /// space that randomly packed spheres fill, 0.64.
 inline constexpr float kBodyVolume = 6.5F;
-/// Radius of the kernel with which a particle dims the light of transparent metaballs, in radii of the particle. Chosen:
-/// columns of a resting body are even.
+/// Radius of the kernel with which a particle dims the light of transparent metaballs, in radii of the particle.
+/// Chosen: columns of a resting body are even.
 inline constexpr float kSplatReach = 2.5F;
 /// Number of surfaces of transparent bodies that a ray passes at most.
 inline constexpr std::size_t kMostSurfaces = 12;

@@ -30,12 +30,6 @@ SphereAttributes particleAttributes(glm::vec3 color, const SkyVisibility& sky) {
     return {packedColor(color), packedSky(sky[0], sky[2], sky[4]), packedSky(sky[1], sky[3], sky[5])};
 }
 
-double meanRadius(std::span<const Sphere> particles) {
-    double sum = 0.0;
-    for (const Sphere& particle : particles) sum += double(particle.radius);
-    return particles.empty() ? 0.0 : sum / static_cast<double>(particles.size());
-}
-
 DrawnSpheres drawnSpheres(const View& view) {
     DrawnSpheres drawn;
     const auto addAll = [&](const auto& spheres) {

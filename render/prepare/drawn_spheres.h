@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "render/picture/view.h"
-#include "render/prepare/ambient_occlusion.h"
-#include "render/prepare/tiles.h"
+#include "render/prepare/cells/tiles.h"
+#include "render/prepare/lighting/ambient_occlusion.h"
 
 namespace render {
 
@@ -38,8 +38,5 @@ DrawnSpheres drawnSpheres(const View& view);
 /// @param skyVisibility  sky visibility of each particle of the view, or empty
 std::vector<SphereAttributes> sphereAttributes(const View& view, const DrawnSpheres& drawn,
                                                std::span<const SkyVisibility> skyVisibility);
-
-/// Mean radius of the particles, m; 0 without particles.
-double meanRadius(std::span<const Sphere> particles);
 
 }  // namespace render

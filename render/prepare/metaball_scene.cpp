@@ -26,17 +26,6 @@ SymmetricMatrix<double> inView(const CameraFrame& frame, const SymmetricMatrix<f
     return inAxes(world, glm::dvec3(frame.right), glm::dvec3(frame.up), glm::dvec3(frame.forward));
 }
 
-SymmetricMatrix<float> rounded(const SymmetricMatrix<double>& m) {
-    return {float(m.xx), float(m.yy), float(m.zz), float(m.xy), float(m.xz), float(m.yz)};
-}
-
-/// The square root of an upper bound of a matrix' eigenvalues: of the eighth root of the sum of their eighth powers.
-float longestAxis(const SymmetricMatrix<double>& spread) {
-    const double scale = spread.trace();
-    const SymmetricMatrix<double> eighth = squared(squared(squared(spread * (1.0 / scale))));
-    return static_cast<float>(std::sqrt(scale * std::sqrt(std::sqrt(std::sqrt(eighth.trace())))));
-}
-
 /// Gives the balls of an anisotropic skin their shapes.
 /// @param pixels  set to the bounds of the pixels that each ball may touch
 void shapeBalls(std::span<const SkinBall> skin, MetaballScene& scene, std::vector<Rect>& pixels) {
@@ -48,15 +37,11 @@ void shapeBalls(std::span<const SkinBall> skin, MetaballScene& scene, std::vecto
         scene.ellipsoids[k] = ellipsoidOf(spread, ball.peak);
         // A little longer, for the rounding of what is cast.
         ball.reach = 1.00001F * static_cast<float>(std::sqrt(spread.zz));
-        pixels[k] = pixelsTouchedByEllipsoid(scene.frame, ball.center, rounded(spread)).value_or(Rect{});
+        pixels[k] = pixelsTouchedByEllipsoid(scene.frame, ball.center, inFloat(spread)).value_or(Rect{});
     });
 }
 
 }  // namespace
-
-Ellipsoid ellipsoidOf(const SymmetricMatrix<double>& spread, float peak) {
-    return {rounded(inverse(spread) * double(peak)), longestAxis(spread)};
-}
 
 MetaballScene metaballScene(const CameraFrame& frame, const View& view, std::span<const SkinBall> balls) {
     MetaballScene scene;

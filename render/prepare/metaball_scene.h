@@ -9,11 +9,11 @@
 #include <glm/glm.hpp>
 
 #include "render/picture/camera_frame.h"
-#include "render/picture/symmetric_matrix.h"
 #include "render/picture/view.h"
-#include "render/prepare/ambient_occlusion.h"
-#include "render/prepare/skin.h"
-#include "render/prepare/tiles.h"
+#include "render/prepare/cells/tiles.h"
+#include "render/prepare/lighting/ambient_occlusion.h"
+#include "render/prepare/skin/ellipsoid.h"
+#include "render/prepare/skin/skin.h"
 
 namespace render {
 
@@ -25,18 +25,6 @@ struct Metaball {
     float peak = 1.0F;   ///< square root of the ball's weight
     float slope = 1.0F;  ///< fourth root of the weight over the reach, 1/m; of no meaning for an ellipsoid
 };
-
-/// The shape of a ball of an anisotropic skin. Its kernel is (peak - d^T form d)^2, d the vector from its center in
-/// view coordinates, where that root is above zero.
-struct Ellipsoid {
-    SymmetricMatrix<float> form;  ///< peak times view.h's M, 1/m^2
-    float radius = 1.0F;          ///< of a sphere around the kernel, m; at most a tenth longer than its longest axis
-};
-
-/// The shape of a ball.
-/// @param spread  as in SkinBall, along any axes, which are those of the result
-/// @param peak    square root of the ball's weight
-Ellipsoid ellipsoidOf(const SymmetricMatrix<double>& spread, float peak);
 
 /// What a ball contributes to the surface around it, weighted by its kernel.
 struct BallAttributes {

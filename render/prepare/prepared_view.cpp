@@ -8,8 +8,9 @@
 
 #include <tbb/parallel_invoke.h>
 
+#include "render/prepare/cells/mean_radius.h"
+#include "render/prepare/cells/strays.h"
 #include "render/prepare/ground_tiles.h"
-#include "render/prepare/strays.h"
 
 namespace render {
 
@@ -44,8 +45,7 @@ bool hasTransparency(const PreparedView& prepared) {
 void prepareTransparency(PreparedView& to) {
     const View& view = *to.view;
     to.hasTransparency = hasTransparency(to);
-    to.ballCells =
-        to.hasTransparency && to.hasMetaballs ? ballCells(view, to.skin, to.frame.eye) : BallCells{};
+    to.ballCells = to.hasTransparency && to.hasMetaballs ? ballCells(view, to.skin, to.frame.eye) : BallCells{};
     to.solids =
         to.hasTransparency ? solidTree(to.drawn.spheres, view.boxObstacles, to.meshes, to.frame.eye) : SolidTree{};
 }

@@ -60,7 +60,8 @@ const std::map<std::string, std::vector<std::string>> kRooms = {
     {"render",
      {"render", "render/opengl", "render/opengl/context", "render/cpu", "render/cpu/transparency", "render/cpu/shading",
       "render/cpu/lighting", "render/cpu/metaballs", "render/cpu/raster", "render/mesh", "render/prepare",
-      "render/prepare/lighting", "render/overlay", "render/output", "render/compare", "render/picture"}},
+      "render/prepare/rays", "render/prepare/lighting", "render/prepare/skin", "render/prepare/cells", "render/overlay",
+      "render/output", "render/compare", "render/picture"}},
     {"scenes",
      {"scenes/view", "scenes/build", "scenes/warnings", "scenes/schema", "scenes/model", "scenes/shapes",
       "scenes/particles", "scenes/text"}},
@@ -261,7 +262,7 @@ TEST_CASE("OpenVDB outside its file is noticed", "[layering]") {
     CHECK(verdict({"render", "render/mesh/isosurface_openvdb.cpp", 1, "openvdb/openvdb.h"}) == "");
     CHECK(verdict({"render", "render/mesh/surface_mesh.cpp", 1, "openvdb/openvdb.h"}) != "");
     CHECK(verdict({"tools", "tools/commands/mesh_command.cpp", 1, "openvdb/openvdb.h"}) != "");
-    CHECK(verdict({"render", "render/prepare/skin.cpp", 1, "render/mesh/surface_mesh.h"}) != "");
+    CHECK(verdict({"render", "render/prepare/skin/skin.cpp", 1, "render/mesh/surface_mesh.h"}) != "");
 }
 
 TEST_CASE("OpenEXR outside its file is noticed", "[layering]") {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "render/prepare/skin.h"
+#include "render/prepare/skin/skin.h"
 #include "studies/oracle/oracle.h"
 #include "studies/pictures/level_pool.h"
 #include "studies/pictures/pictures.h"

@@ -6,8 +6,8 @@
 #include <random>
 
 #include "render/picture/camera_frame.h"
-#include "render/prepare/skin.h"
-#include "render/prepare/strays.h"
+#include "render/prepare/cells/strays.h"
+#include "render/prepare/skin/skin.h"
 #include "tests/render/pictures.h"
 
 namespace {

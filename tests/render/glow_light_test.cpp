@@ -7,7 +7,7 @@
 
 #include <tbb/global_control.h>
 
-#include "render/prepare/ambient_occlusion.h"
+#include "render/prepare/lighting/ambient_occlusion.h"
 #include "render/prepare/lighting/glow_light.h"
 #include "tests/render/pictures.h"
 

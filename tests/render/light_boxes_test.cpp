@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "render/cpu/lighting/light_visibility.h"
-#include "render/prepare/light_space.h"
+#include "render/prepare/lighting/light_space.h"
 #include "tests/render/many_boxes.h"
 
 using namespace pictures;

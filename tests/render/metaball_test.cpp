@@ -11,7 +11,7 @@
 #include "render/cpu/lighting/depth_map.h"
 #include "render/cpu/metaballs/metaball_frame.h"
 #include "render/cpu/metaballs/ray_layout.h"
-#include "render/prepare/depth_map_grid.h"
+#include "render/prepare/lighting/depth_map_grid.h"
 #include "render/prepare/metaball_scene.h"
 #include "tests/render/pictures.h"
 

@@ -9,8 +9,8 @@
 
 #include <tbb/global_control.h>
 
-#include "render/prepare/ambient_occlusion.h"
-#include "render/prepare/skin.h"
+#include "render/prepare/lighting/ambient_occlusion.h"
+#include "render/prepare/skin/skin.h"
 #include "tests/render/pictures.h"
 
 using namespace pictures;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/picture/camera_frame.h"
-#include "render/prepare/strays.h"
+#include "render/prepare/cells/strays.h"
 #include "tests/render/pictures.h"
 
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/prepare/tiles.h"
+#include "render/prepare/cells/tiles.h"
 #include "tests/render/pictures.h"
 
 TEST_CASE("indicesByKey sorts by key and keeps the order of equal keys") {

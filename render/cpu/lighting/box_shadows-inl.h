@@ -17,7 +17,7 @@
 
 #include "render/cpu/lighting/light_visibility.h"
 #include "render/cpu/lighting/receivers-inl.h"
-#include "render/prepare/simd_rays-inl.h"
+#include "render/prepare/cells/simd_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace render {

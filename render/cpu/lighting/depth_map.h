@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/prepare/depth_map_grid.h"
+#include "render/prepare/lighting/depth_map_grid.h"
 #include "render/prepare/metaball_scene.h"
 
 namespace render {

@@ -11,8 +11,8 @@
 
 #include "render/cpu/lighting/receivers-inl.h"
 #include "render/cpu/raster/simd_loads-inl.h"
+#include "render/prepare/cells/simd_rays-inl.h"
 #include "render/prepare/lighting/glow_light.h"
-#include "render/prepare/simd_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace render {

@@ -18,8 +18,8 @@
 #include "render/cpu/lighting/glow_light-inl.h"
 #include "render/cpu/lighting/receivers-inl.h"
 #include "render/cpu/raster/simd_loads-inl.h"
-#include "render/prepare/simd_occlusion-inl.h"
-#include "render/prepare/simd_rays-inl.h"
+#include "render/prepare/cells/simd_rays-inl.h"
+#include "render/prepare/lighting/simd_occlusion-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace render {

@@ -9,10 +9,10 @@
 #include "render/cpu/lighting/depth_map.h"
 #include "render/cpu/lighting/shading_points.h"
 #include "render/picture/view.h"
-#include "render/prepare/ambient_occlusion.h"
-#include "render/prepare/light_space.h"
+#include "render/prepare/lighting/ambient_occlusion.h"
 #include "render/prepare/lighting/glow_light.h"
-#include "render/prepare/optical_depth_map.h"
+#include "render/prepare/lighting/light_space.h"
+#include "render/prepare/lighting/optical_depth_map.h"
 
 namespace render {
 
@@ -25,13 +25,13 @@ struct Occluders {
     const DepthMap* metaballs = nullptr;
     const DepthMap* meshes = nullptr;
     const LightBoxGrid* lightBoxes = nullptr;
-    std::span<const BoxObstacle> boxes;           ///< in world coordinates; what lightBoxes lists
-    std::size_t subtractedBoxCount = 0;           ///< number of boxes, the first ones, whose coverage is subtracted
-    float softness = 0.0F;                        ///< softness of the shadows' edges, as in Light
-    float meanRadius = 0.0F;                      ///< mean radius of the particles, m
-    const SkyVisibilityGrid* sky = nullptr;       ///< sky visibility, null without ambient occlusion
-    const SkyVisibilityMap* groundSky = nullptr;  ///< sky visibility of the ground, null without ambient occlusion
-    const GlowGrid* glow = nullptr;               ///< light of particles, null if none glows
+    std::span<const BoxObstacle> boxes;             ///< in world coordinates; what lightBoxes lists
+    std::size_t subtractedBoxCount = 0;             ///< number of boxes, the first ones, whose coverage is subtracted
+    float softness = 0.0F;                          ///< softness of the shadows' edges, as in Light
+    float meanRadius = 0.0F;                        ///< mean radius of the particles, m
+    const SkyVisibilityGrid* sky = nullptr;         ///< sky visibility, null without ambient occlusion
+    const SkyVisibilityMap* groundSky = nullptr;    ///< sky visibility of the ground, null without ambient occlusion
+    const GlowGrid* glow = nullptr;                 ///< light of particles, null if none glows
     const OpticalDepthMap* opticalDepth = nullptr;  ///< of transparent metaballs, null if they are opaque
     float transparency = 0.0F;                      ///< of the metaballs
 

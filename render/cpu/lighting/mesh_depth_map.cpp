@@ -14,7 +14,7 @@
 
 #include "render/cpu/lighting/mesh_heights.h"
 #include "render/picture/parallel_loops.h"
-#include "render/prepare/tiles.h"
+#include "render/prepare/cells/tiles.h"
 
 namespace render {
 

@@ -4,7 +4,7 @@
 
 #include "render/cpu/lighting/depth_map.h"
 #include "render/picture/drawn_meshes.h"
-#include "render/prepare/light_space.h"
+#include "render/prepare/lighting/light_space.h"
 
 namespace render {
 

@@ -15,8 +15,8 @@
 #include "render/picture/camera_frame.h"
 #include "render/picture/drawn_meshes.h"
 #include "render/picture/view.h"
+#include "render/prepare/cells/tiles.h"
 #include "render/prepare/drawn_spheres.h"
-#include "render/prepare/tiles.h"
 
 namespace render {
 

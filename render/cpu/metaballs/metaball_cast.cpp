@@ -13,7 +13,7 @@
 #include <hwy/highway.h>
 
 #include "render/cpu/metaballs/near_balls-inl.h"
-#include "render/prepare/simd_occlusion-inl.h"
+#include "render/prepare/lighting/simd_occlusion-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace render {

@@ -5,8 +5,8 @@
 #include <array>
 #include <cstddef>
 
+#include "render/prepare/cells/tiles.h"
 #include "render/prepare/metaball_scene.h"
-#include "render/prepare/tiles.h"
 
 namespace render {
 

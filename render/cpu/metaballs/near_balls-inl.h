@@ -25,8 +25,8 @@
 #include <hwy/highway.h>
 #include <tbb/cache_aligned_allocator.h>
 
+#include "render/prepare/cells/simd_rays-inl.h"
 #include "render/prepare/metaball_scene.h"
-#include "render/prepare/simd_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace render {

@@ -12,7 +12,7 @@
 #include <glm/glm.hpp>
 
 #include "render/cpu/metaballs/metaball_cast.h"
-#include "render/prepare/tiles.h"
+#include "render/prepare/cells/tiles.h"
 
 namespace render {
 

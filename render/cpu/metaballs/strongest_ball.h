@@ -9,8 +9,8 @@
 
 #include <glm/glm.hpp>
 
+#include "render/prepare/cells/tiles.h"
 #include "render/prepare/metaball_scene.h"
-#include "render/prepare/tiles.h"
 
 namespace render {
 

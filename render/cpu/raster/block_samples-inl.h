@@ -16,7 +16,7 @@
 #include <hwy/highway.h>
 
 #include "render/cpu/raster/primary_hits.h"
-#include "render/prepare/simd_rays-inl.h"
+#include "render/prepare/cells/simd_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace render {

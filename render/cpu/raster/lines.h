@@ -10,8 +10,8 @@
 
 #include "render/cpu/raster/primary_hits.h"
 #include "render/picture/camera_frame.h"
+#include "render/prepare/cells/tiles.h"
 #include "render/prepare/screen_lines.h"
-#include "render/prepare/tiles.h"
 
 namespace render {
 

@@ -13,7 +13,7 @@
 
 #include "render/cpu/raster/block_samples-inl.h"
 #include "render/cpu/raster/triangle_setup.h"
-#include "render/prepare/simd_rays-inl.h"
+#include "render/prepare/cells/simd_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace render {

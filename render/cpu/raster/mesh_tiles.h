@@ -9,7 +9,7 @@
 
 #include "render/picture/camera_frame.h"
 #include "render/picture/drawn_meshes.h"
-#include "render/prepare/tiles.h"
+#include "render/prepare/cells/tiles.h"
 
 namespace render {
 

@@ -14,8 +14,8 @@
 
 #include "render/picture/camera_frame.h"
 #include "render/picture/view.h"
-#include "render/prepare/hit_ids.h"
-#include "render/prepare/tiles.h"
+#include "render/prepare/cells/hit_ids.h"
+#include "render/prepare/cells/tiles.h"
 
 namespace render {
 

@@ -12,7 +12,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "render/prepare/simd_rays-inl.h"
+#include "render/prepare/cells/simd_rays-inl.h"
 
 #ifndef RENDER_SHADE_DITHER
 #define RENDER_SHADE_DITHER

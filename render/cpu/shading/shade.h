@@ -11,7 +11,7 @@
 #include "render/cpu/lighting/light_visibility.h"
 #include "render/cpu/lighting/shading_points.h"
 #include "render/picture/view.h"
-#include "render/prepare/tiles.h"
+#include "render/prepare/cells/tiles.h"
 
 namespace render {
 

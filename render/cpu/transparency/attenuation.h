@@ -6,7 +6,7 @@
 #include <glm/glm.hpp>
 
 #include "render/picture/shading_model.h"
-#include "render/prepare/portable_exponentials.h"
+#include "render/prepare/lighting/portable_exponentials.h"
 
 namespace render {
 

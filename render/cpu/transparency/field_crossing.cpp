@@ -3,9 +3,10 @@
 // instruction set.
 //
 // At the distance t the square root of a ball's kernel is  w - u^2  with  u = t s - c,  where s is the ball's slope,
-// c/s the distance at which the ray comes closest to its center, and w = peak - (closest distance)^2 s^2. The root of an
-// ellipsoid is peak - d^T F d, d being the vector from its center and F its form. For a ray in the direction e it has the
-// same terms, with s^2 = e^T F e, c/s = (toCenter^T F e)/s^2, and w the root there. Hence the field and its derivative:
+// c/s the distance at which the ray comes closest to its center, and w = peak - (closest distance)^2 s^2. The root of
+// an ellipsoid is peak - d^T F d, d being the vector from its center and F its form. For a ray in the direction e it
+// has the same terms, with s^2 = e^T F e, c/s = (toCenter^T F e)/s^2, and w the root there. Hence the field and its
+// derivative:
 //   F = sum max(0, w - u^2)^2,     F' = -4 sum max(0, w - u^2) u s.
 #include "render/cpu/transparency/field_crossing.h"
 
@@ -16,14 +17,14 @@
 #include <limits>
 
 #include "render/cpu/transparency/grid_walk.h"
-#include "render/prepare/tiles.h"
+#include "render/prepare/cells/tiles.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/cpu/transparency/field_crossing.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "render/prepare/simd_rays-inl.h"
+#include "render/prepare/cells/simd_rays-inl.h"
 
 #ifndef RENDER_FIELD_CROSSING_TYPES
 #define RENDER_FIELD_CROSSING_TYPES

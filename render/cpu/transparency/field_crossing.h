@@ -7,7 +7,7 @@
 
 #include <glm/glm.hpp>
 
-#include "render/prepare/ball_cells.h"
+#include "render/prepare/rays/ball_cells.h"
 
 namespace render {
 

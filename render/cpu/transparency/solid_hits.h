@@ -7,8 +7,8 @@
 #include <glm/glm.hpp>
 
 #include "render/cpu/lighting/shading_points.h"
-#include "render/prepare/hit_ids.h"
-#include "render/prepare/solid_tree.h"
+#include "render/prepare/cells/hit_ids.h"
+#include "render/prepare/rays/solid_tree.h"
 
 namespace render {
 

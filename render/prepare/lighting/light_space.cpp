@@ -1,6 +1,6 @@
 // Spheres that cast shadows are sorted by height and binned into cells about as wide as a mean sphere, boxes into cells
 // about as wide as most of them.
-#include "render/prepare/light_space.h"
+#include "render/prepare/lighting/light_space.h"
 
 #include <algorithm>
 #include <cmath>

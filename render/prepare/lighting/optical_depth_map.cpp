@@ -1,6 +1,6 @@
 // Each particle adds its kernel to the texels around it. Bands of rows are filled in parallel, each in the particles'
 // order.
-#include "render/prepare/optical_depth_map.h"
+#include "render/prepare/lighting/optical_depth_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,8 @@
 #include <tbb/parallel_for.h>
 
 #include "render/picture/bounds.h"
-#include "render/prepare/portable_exponentials.h"
+#include "render/prepare/cells/mean_radius.h"
+#include "render/prepare/lighting/portable_exponentials.h"
 
 namespace render {
 
@@ -83,18 +84,16 @@ class MapFill {
 OpticalDepthMap opticalDepthMap(const LightBasis& basis, const View& view, glm::vec3 eye) {
     Bounds<glm::vec2> bounds;
     float largest = 0.0F;
-    double sum = 0.0;
     for (const Sphere& particle : view.particles) {
         if (particle.radius <= 0.0F) continue;
         bounds.add(glm::vec2(basis.toLightSpace(particle.center - eye)));
         largest = std::max(largest, particle.radius);
-        sum += double(particle.radius);
     }
     OpticalDepthMap map;
     if (largest == 0.0F) return map;
     constexpr float kMostTexels = 1024.0F;  // along a side; chosen: the map takes at most 12 MB
     const glm::vec2 size = bounds.high - bounds.low + 2.0F * kSplatReach * largest;
-    const auto mean = static_cast<float>(sum / static_cast<double>(view.particles.size()));
+    const auto mean = static_cast<float>(meanRadius(view.particles));
     map.texelSize = std::max(0.5F * mean, std::max(size.x, size.y) / (kMostTexels - 4.0F));
     // One texel more on each side than the kernels reach, so that the border is 0.
     map.origin = bounds.low - kSplatReach * largest - map.texelSize;

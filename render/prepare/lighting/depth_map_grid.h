@@ -9,8 +9,8 @@
 #include "render/picture/camera_frame.h"
 #include "render/picture/drawn_meshes.h"
 #include "render/picture/view.h"
-#include "render/prepare/light_space.h"
-#include "render/prepare/skin.h"
+#include "render/prepare/lighting/light_space.h"
+#include "render/prepare/skin/skin.h"
 
 namespace render {
 

@@ -11,7 +11,7 @@
 
 #include "render/picture/drawn_meshes.h"
 #include "render/picture/view.h"
-#include "render/prepare/tiles.h"
+#include "render/prepare/cells/tiles.h"
 
 namespace render {
 

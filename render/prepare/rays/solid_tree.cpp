@@ -2,7 +2,7 @@
 // and solids, among 16 places along the longest side of the box around their centers. Large parts are divided in
 // parallel. Each part has room for as many nodes as it may need, so that the tree does not depend on the number of
 // threads.
-#include "render/prepare/solid_tree.h"
+#include "render/prepare/rays/solid_tree.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 
 #include "render/picture/bounds.h"
 #include "render/picture/parallel_loops.h"
-#include "render/prepare/hit_ids.h"
+#include "render/prepare/cells/hit_ids.h"
 
 namespace render {
 

@@ -12,8 +12,8 @@
 
 #include <hwy/highway.h>
 
-#include "render/prepare/ambient_occlusion.h"
-#include "render/prepare/simd_rays-inl.h"
+#include "render/prepare/cells/simd_rays-inl.h"
+#include "render/prepare/lighting/ambient_occlusion.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace render {

@@ -1,11 +1,11 @@
 // Sorts particles into cells by a counting sort.
-#include "render/prepare/particle_cells.h"
+#include "render/prepare/skin/particle_cells.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "render/prepare/tiles.h"
+#include "render/prepare/cells/tiles.h"
 
 namespace render {
 

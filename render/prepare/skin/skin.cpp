@@ -6,7 +6,7 @@
 // Groups of particles that are far apart have grids of their own: particles that have left a scene cost no time, and
 // change no bit of the others' balls where they are too far away for one grid.
 // This file is compiled once per instruction set.
-#include "render/prepare/skin.h"
+#include "render/prepare/skin/skin.h"
 
 #include <algorithm>
 #include <array>
@@ -19,14 +19,14 @@
 #include <tbb/parallel_for.h>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "render/prepare/skin.cpp"
+#define HWY_TARGET_INCLUDE "render/prepare/skin/skin.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "render/prepare/neighborhood-inl.h"
-#include "render/prepare/simd_rays-inl.h"
-#include "render/prepare/skin_shapes.h"
-#include "render/prepare/strays.h"
+#include "render/prepare/cells/simd_rays-inl.h"
+#include "render/prepare/cells/strays.h"
+#include "render/prepare/skin/neighborhood-inl.h"
+#include "render/prepare/skin/skin_shapes.h"
 
 #ifndef RENDER_SKIN_INFLUENCE
 #define RENDER_SKIN_INFLUENCE

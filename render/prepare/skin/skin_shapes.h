@@ -7,7 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "render/picture/symmetric_matrix.h"
-#include "render/prepare/particle_cells.h"
+#include "render/prepare/skin/particle_cells.h"
 
 namespace render {
 

@@ -2,7 +2,7 @@
 // double precision and without functions of libm, so that it is the same on every machine. No eigenvalues are needed,
 // because the ellipsoid's matrix is the square of the covariance but for a factor.
 // This file is compiled once per instruction set.
-#include "render/prepare/skin_shapes.h"
+#include "render/prepare/skin/skin_shapes.h"
 
 #include <algorithm>
 #include <array>
@@ -12,12 +12,12 @@
 #include <tbb/parallel_for.h>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "render/prepare/skin_shapes.cpp"
+#define HWY_TARGET_INCLUDE "render/prepare/skin/skin_shapes.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "render/prepare/neighborhood-inl.h"
-#include "render/prepare/simd_rays-inl.h"
+#include "render/prepare/cells/simd_rays-inl.h"
+#include "render/prepare/skin/neighborhood-inl.h"
 
 #ifndef RENDER_SKIN_MOMENTS
 #define RENDER_SKIN_MOMENTS

@@ -10,7 +10,7 @@
 #include <glm/glm.hpp>
 
 #include "render/picture/symmetric_matrix.h"
-#include "render/prepare/skin.h"
+#include "render/prepare/skin/skin.h"
 
 namespace render {
 
@@ -18,12 +18,12 @@ namespace render {
 /// around it, in nine contiguous runs. Positions are relative to the eye, along the world's axes. Unused numbers follow
 /// the last ball's, because whole vectors of them are read.
 struct BallCells {
-    glm::vec3 low{0.0F};                 ///< corner of the first cell, below all kernels, m
-    float side = 1.0F;                   ///< side of a cell, m: no kernel reaches farther than this
-    glm::ivec3 count{0};                 ///< number of cells along each axis; 0 without balls
-    std::vector<std::uint32_t> begin;    ///< sorted index of each cell's first ball; at last the number of balls
-    std::vector<float> x, y, z;          ///< centers, by sorted index, m
-    std::vector<float> peak, slope;      ///< of the kernels, as in BallKernel
+    glm::vec3 low{0.0F};               ///< corner of the first cell, below all kernels, m
+    float side = 1.0F;                 ///< side of a cell, m: no kernel reaches farther than this
+    glm::ivec3 count{0};               ///< number of cells along each axis; 0 without balls
+    std::vector<std::uint32_t> begin;  ///< sorted index of each cell's first ball; at last the number of balls
+    std::vector<float> x, y, z;        ///< centers, by sorted index, m
+    std::vector<float> peak, slope;    ///< of the kernels, as in BallKernel
     /// Of an anisotropic skin the forms of the ellipsoids, entry by entry, in the order of SymmetricMatrix; empty else.
     std::array<std::vector<float>, 6> form;
     std::vector<std::int32_t> particle;  ///< index in the view of the particle that each ball stands for

@@ -15,8 +15,8 @@
 
 #include <hwy/highway.h>
 
-#include "render/prepare/particle_cells.h"
-#include "render/prepare/simd_rays-inl.h"
+#include "render/prepare/cells/simd_rays-inl.h"
+#include "render/prepare/skin/particle_cells.h"
 
 #ifndef RENDER_NEIGHBORHOOD
 #define RENDER_NEIGHBORHOOD

@@ -1,11 +1,11 @@
 // The size of a texel comes from the softness of the light or from the smallest particle.
-#include "render/prepare/depth_map_grid.h"
+#include "render/prepare/lighting/depth_map_grid.h"
 
 #include <algorithm>
 #include <limits>
 
 #include "render/picture/parallel_loops.h"
-#include "render/prepare/drawn_spheres.h"
+#include "render/prepare/cells/mean_radius.h"
 
 namespace render {
 

@@ -1,12 +1,12 @@
 // A counting sort: balls keep the order of their particles within a cell.
-#include "render/prepare/ball_cells.h"
+#include "render/prepare/rays/ball_cells.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "render/picture/bounds.h"
-#include "render/prepare/metaball_scene.h"
-#include "render/prepare/tiles.h"
+#include "render/prepare/cells/tiles.h"
+#include "render/prepare/skin/ellipsoid.h"
 
 namespace render {
 

@@ -1,7 +1,7 @@
 // The particles' volumes are spread over cubes, blurred, and summed up along the axes. The values at the particles are
 // then interpolated with as many particles at a time as a vector has lanes: this file is compiled once per instruction
 // set.
-#include "render/prepare/ambient_occlusion.h"
+#include "render/prepare/lighting/ambient_occlusion.h"
 
 #include <algorithm>
 #include <array>
@@ -11,15 +11,15 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "render/prepare/drawn_spheres.h"
+#include "render/prepare/cells/mean_radius.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "render/prepare/ambient_occlusion.cpp"
+#define HWY_TARGET_INCLUDE "render/prepare/lighting/ambient_occlusion.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "render/prepare/simd_occlusion-inl.h"
-#include "render/prepare/simd_rays-inl.h"
+#include "render/prepare/cells/simd_rays-inl.h"
+#include "render/prepare/lighting/simd_occlusion-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace render {

@@ -14,7 +14,7 @@
 #include <hwy/highway.h>
 
 #include "render/picture/camera_frame.h"
-#include "render/prepare/tiles.h"
+#include "render/prepare/cells/tiles.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace render {

@@ -7,7 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "render/picture/view.h"
-#include "render/prepare/light_space.h"
+#include "render/prepare/lighting/light_space.h"
 
 namespace render {
 

@@ -1,5 +1,5 @@
 // A counting sort of items into cells: count, sum up, fill. Items are ordered before by a radix sort of their keys.
-#include "render/prepare/tiles.h"
+#include "render/prepare/cells/tiles.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 // projection. A shadow is a cylinder from its caster away from the light. It falls on something that is seen if it
 // meets both the picture's volume and the box around the thing, which are convex: the axis of the cylinder is clipped
 // by their faces, moved outward by the radius of the cylinder.
-#include "render/prepare/strays.h"
+#include "render/prepare/cells/strays.h"
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@
 #include <tbb/parallel_for.h>
 
 #include "render/picture/drawn_meshes.h"
-#include "render/prepare/tiles.h"
+#include "render/prepare/cells/tiles.h"
 
 namespace render {
 
