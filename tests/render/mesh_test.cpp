@@ -171,7 +171,7 @@ void weld(TriangleMesh& mesh) {
 
 TEST_CASE("A single particle's mesh is a sphere of its radius", "[mesh]") {
     if (lacksOpenVdb()) return;
-    for (const render::Skin skin : {render::Skin::plain, render::Skin::smooth}) {
+    for (const render::Skin skin : {render::Skin::plain, render::Skin::smooth, render::Skin::anisotropic}) {
         render::View view;
         view.field.skin = skin;
         view.particles = {{glm::vec3(1.3F, -0.7F, 2.1F), 0.3F, glm::vec3(0.1F, 0.5F, 0.9F)}};
@@ -196,7 +196,7 @@ TEST_CASE("A single particle's mesh is a sphere of its radius", "[mesh]") {
 
 TEST_CASE("Meshes of clouds are closed, turned outward and on the oracle's surface", "[mesh]") {
     if (lacksOpenVdb()) return;
-    for (const render::Skin skin : {render::Skin::plain, render::Skin::smooth})
+    for (const render::Skin skin : {render::Skin::plain, render::Skin::smooth, render::Skin::anisotropic})
         for (const double cell : {1.0, 0.5, 0.33}) {
             const render::View view = blobs(400, skin);
             const double radius = oracle::meanRadius(view);
@@ -297,7 +297,7 @@ TEST_CASE("Blocks are kept at the surface alone", "[mesh]") {
 }
 
 TEST_CASE("Blocks have the field of all balls", "[mesh]") {
-    for (const render::Skin skin : {render::Skin::plain, render::Skin::smooth}) {
+    for (const render::Skin skin : {render::Skin::plain, render::Skin::smooth, render::Skin::anisotropic}) {
         const render::View view = blobs(200, skin);
         const double cell = 0.37 * oracle::meanRadius(view);
         const render::BallBlocks balls(view, cell);

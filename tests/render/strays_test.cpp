@@ -44,7 +44,7 @@ TEST_CASE("a particle that nobody sees does not change the picture") {
     for (const auto quality : {render::Quality::draft, render::Quality::final}) {
         render::Renderer renderer(kSize, quality);
         for (const auto style : {render::Style::spheres, render::Style::metaballs}) {
-            for (const auto skin : {render::Skin::plain, render::Skin::smooth}) {
+            for (const auto skin : {render::Skin::plain, render::Skin::smooth, render::Skin::anisotropic}) {
                 render::View view = shadedCloud(style);
                 view.field.skin = skin;
                 const render::Image expected = renderer.draw(view);
