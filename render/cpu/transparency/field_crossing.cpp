@@ -74,11 +74,27 @@ HWY_INLINE float total(const Accumulators& accumulators) {
     return (sums[0] + sums[2]) + (sums[1] + sums[3]);
 }
 
-/// The forms of the ellipsoids from a sorted index on.
-SymmetricMatrix<V> loadForms(const BallCells& cells, std::size_t first) {
-    const auto entry = [&](std::size_t k) { return hn::LoadU(D(), &cells.form[k][first]); };
-    return {entry(0), entry(1), entry(2), entry(3), entry(4), entry(5)};
-}
+/// The forms of a vector of ellipsoids. (A SymmetricMatrix would not be compiled for the instruction set.)
+struct Forms {
+    V xx, yy, zz, xy, xz, yz;
+
+    Forms(const BallCells& cells, std::size_t first)
+        : xx(entry(cells, 0, first)),
+          yy(entry(cells, 1, first)),
+          zz(entry(cells, 2, first)),
+          xy(entry(cells, 3, first)),
+          xz(entry(cells, 4, first)),
+          yz(entry(cells, 5, first)) {}
+
+    Vec3 times(const Vec3& v) const {
+        return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z, xz * v.x + yz * v.y + zz * v.z};
+    }
+
+ private:
+    static V entry(const BallCells& cells, std::size_t which, std::size_t first) {
+        return hn::LoadU(D(), &cells.form[which][first]);
+    }
+};
 
 /// Appends those of the balls with the sorted indices from `first` to `end` whose kernels a part of a ray meets.
 /// @tparam kIsAnisotropic  whether balls are ellipsoids
@@ -99,7 +115,7 @@ void addMet(const BallCells& cells, std::size_t first, std::size_t end, const Ra
         const Vec3 toCenter = Vec3{loadFrom(cells.x), loadFrom(cells.y), loadFrom(cells.z)} - origin;
         V s, closest, drop;
         if constexpr (kIsAnisotropic) {
-            const SymmetricMatrix<V> form = loadForms(cells, first);
+            const Forms form(cells, first);
             const Vec3 turned = form.times(direction);
             const V square = dot(direction, turned);
             s = hn::Sqrt(square);
