@@ -1,7 +1,7 @@
 // Which terms of the shading model a view uses, as definitions for the shaders: no other term is compiled.
 #pragma once
 
-#include "render/opengl/shader_program.h"
+#include "render/opengl/objects/shader_program.h"
 #include "render/opengl/view_buffers.h"
 #include "render/prepare/prepared_view.h"
 

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "render/opengl/gl_objects.h"
+#include "render/opengl/objects/gl_objects.h"
+#include "render/opengl/objects/shader_program.h"
 #include "render/opengl/seen_triangles.h"
-#include "render/opengl/shader_program.h"
 #include "render/prepare/prepared_view.h"
 
 namespace render {

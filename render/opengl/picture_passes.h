@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "render/opengl/gl_objects.h"
-#include "render/opengl/marked_fragments.h"
 #include "render/opengl/mesh_passes.h"
 #include "render/opengl/metaball_passes.h"
-#include "render/opengl/shader_program.h"
+#include "render/opengl/objects/gl_objects.h"
+#include "render/opengl/objects/marked_fragments.h"
+#include "render/opengl/objects/shader_program.h"
 #include "render/opengl/transparency_buffers.h"
 #include "render/opengl/view_buffers.h"
 #include "render/prepare/prepared_view.h"

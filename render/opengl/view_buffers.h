@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "render/opengl/gl_objects.h"
-#include "render/opengl/shader_program.h"
+#include "render/opengl/objects/gl_objects.h"
+#include "render/opengl/objects/shader_program.h"
 #include "render/prepare/prepared_view.h"
 
 namespace render {

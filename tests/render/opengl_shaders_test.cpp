@@ -15,8 +15,8 @@
 #include <fmt/format.h>
 
 #include "render/opengl/look_defines.h"
-#include "render/opengl/shader_program.h"
-#include "render/opengl/shader_text.h"
+#include "render/opengl/objects/shader_program.h"
+#include "render/opengl/objects/shader_text.h"
 #include "render/picture/system_error.h"
 #include "tests/render/pictures.h"
 #include "tests/render/smaller_limits.h"

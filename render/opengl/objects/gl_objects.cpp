@@ -1,5 +1,5 @@
 // Creates objects with all limits checked that depend on the size of the picture or the number of particles.
-#include "render/opengl/gl_objects.h"
+#include "render/opengl/objects/gl_objects.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // GLSL has no #include. Directives #line tell the compiler which file and line each line comes from.
-#include "render/opengl/shader_text.h"
+#include "render/opengl/objects/shader_text.h"
 
 #include <regex>
 #include <stdexcept>

@@ -1,9 +1,9 @@
 // Compiles, links and binds. A failure comes with the compiler's own words.
-#include "render/opengl/shader_program.h"
+#include "render/opengl/objects/shader_program.h"
 
 #include <fmt/format.h>
 
-#include "render/opengl/shader_text.h"
+#include "render/opengl/objects/shader_text.h"
 #include "render/picture/system_error.h"
 
 namespace render {

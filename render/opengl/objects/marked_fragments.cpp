@@ -1,5 +1,5 @@
 // Groups are laid out as blocks of 4 x 2 pixels, sixteen in a row.
-#include "render/opengl/marked_fragments.h"
+#include "render/opengl/objects/marked_fragments.h"
 
 namespace render {
 
