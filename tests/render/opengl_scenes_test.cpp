@@ -3,6 +3,7 @@
 
 #ifdef RENDER_HAS_OPENGL
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -65,6 +66,11 @@ scenes::Scene sceneOf(const scenes::LibraryEntry& entry, const std::string& styl
     return scenes::loadScene(entry.path, overrides);
 }
 
+bool isSeenThrough(const render::View& view) {
+    const auto isTransparent = [](const render::MeshObstacle& mesh) { return mesh.medium.isTransparent(); };
+    return view.surface.medium.isTransparent() || std::ranges::any_of(view.meshObstacles, isTransparent);
+}
+
 }  // namespace
 
 TEST_CASE("Both renderers draw the same picture of every built-in scene", "[opengl]") {
@@ -79,6 +85,13 @@ TEST_CASE("Both renderers draw the same picture of every built-in scene", "[open
             const bool hasMesh = !view.meshObstacles.empty();
             const auto difference = pictures::compare(byOpenGl, byCpu, style != "spheres" ? 64 : hasMesh ? 24 : 1);
             INFO(entry.name << ", " << style << ": " << difference);
+            if (isSeenThrough(view)) {
+                // Behind bends neighboring rays go to places far apart, and roundings decide which: as in
+                // transparency_test.cpp (measured here: share 0.0016, mean 0.11).
+                CHECK(difference.share < 0.005);
+                CHECK(difference.mean < 0.3);
+                continue;
+            }
             if (style == "spheres" && hasMesh) {
                 // Samples of one pixel that see one smooth mesh are shaded together by the CPU and one by one by
                 // OpenGL, which differ where the mesh bends within the pixel, as along the rim of a bowl.
