@@ -178,11 +178,16 @@ struct NamedLook {
     void (*add)(render::View&) = nullptr;  ///< changes the look of the dam break
 };
 
-constexpr NamedLook kLooks[] = {{"as it is", [](render::View&) {}}, {"transparent", [](render::View& view) {
-                                                                         view.surface.translucency = 0.0F;
-                                                                         view.surface.absorption = 0.0F;
-                                                                         view.surface.medium = {0.9F, 1.33F, 2.0F};
-                                                                     }}};
+constexpr NamedLook kLooks[] = {
+    {"as it is", [](render::View&) {}},
+    {"anisotropic skin", [](render::View& view) { view.field.skin = render::Skin::anisotropic; }},
+    {"glow", [](render::View& view) { view.surface.glow = 0.5F; }},
+    {"rim light", [](render::View& view) { view.light.rim = glm::vec3(0.6F); }},
+    {"transparent", [](render::View& view) {
+         view.surface.translucency = 0.0F;
+         view.surface.absorption = 0.0F;
+         view.surface.medium = {0.9F, 1.33F, 2.0F};
+     }}};
 
 }  // namespace
 
