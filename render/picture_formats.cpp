@@ -35,7 +35,7 @@ Bytes encodeRgb(const PictureScale&, const Layers& layers) {
     return encodePng(layers.image);
 }
 
-/// Colors are divided by alpha, and encoded as in the finished picture.
+/// Colors are divided by alpha, and encoded as in the finished picture, but without dither.
 Bytes encodeRgba(const PictureScale& scale, const Layers& layers) {
     Bytes bytes(4 * layers.color.size());
     for (std::size_t first = 0; first < layers.color.size(); first += kTilePixels) {
@@ -47,7 +47,7 @@ Bytes encodeRgba(const PictureScale& scale, const Layers& layers) {
                 straight.rgb[static_cast<std::size_t>(channel)][k] = pixel.a > 0.0F ? pixel[channel] / pixel.a : 0.0F;
         }
         alignas(64) std::array<PixelColor, kTilePixels> encoded;
-        encodeColors(straight, encoded.data());
+        encodeColors(straight, Rounding::nearest, encoded.data());
         for (std::size_t k = 0; k < count; ++k) {
             std::uint8_t* const to = &bytes[4 * (first + k)];
             for (std::size_t channel = 0; channel < 3; ++channel)

@@ -269,7 +269,7 @@ TileTarget targetOf(const CellLists& tiles, std::size_t tile, std::span<PixelCol
 /// Encodes a tile's colors, which are ordered along the Z curve, and writes them to the picture row by row.
 void writeTile(const PointColors& colors, const TileTarget& target) {
     alignas(64) std::array<PixelColor, kTilePixels> encoded;
-    encodeColors(colors, encoded.data());
+    encodeColors(colors, Rounding::dithered, encoded.data());
     for (std::size_t k = 0; k < kTilePixels; ++k) {
         const std::size_t pixel = kZCurve[k];
         target.first[pixel / kTileSize * target.rowLength + pixel % kTileSize] = encoded[k];

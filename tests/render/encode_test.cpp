@@ -31,8 +31,14 @@ double largestError(float bottom, float top) {
     return largest;
 }
 
+/// The error of the k-th color of a tile, in steps of 1/255, beyond half a step for the rounding.
+double errorOf(unsigned step, render::Rounding rounding, std::size_t k, double linear) {
+    if (rounding == render::Rounding::nearest) return std::abs(step - pictures::encodedSteps(linear));
+    return errorOf(step, linear, render::kZCurve[k] % 16, render::kZCurve[k] / 16);
+}
+
 /// The largest error of encodeColors(), in steps of 1/255; also checks that each channel is in its byte.
-double largestEncodedError(float most) {
+double largestEncodedError(float most, render::Rounding rounding) {
     constexpr int kTiles = 32;
     double largest = 0.0;
     for (int tile = 0; tile < kTiles; ++tile) {
@@ -45,11 +51,11 @@ double largestEncodedError(float most) {
         for (std::size_t channel = 0; channel < 3; ++channel)
             for (std::size_t k = 0; k < render::kTilePixels; ++k) colors.rgb[channel][k] = value(channel, k);
         alignas(64) std::array<render::PixelColor, render::kTilePixels> encoded;
-        render::encodeColors(colors, encoded.data());
+        render::encodeColors(colors, rounding, encoded.data());
         for (std::size_t channel = 0; channel < 3; ++channel)
             for (std::size_t k = 0; k < render::kTilePixels; ++k)
-                largest = std::max(largest, errorOf(encoded[k] >> (8 * channel) & 0xffU, double(value(channel, k)),
-                                                    render::kZCurve[k] % 16, render::kZCurve[k] / 16));
+                largest = std::max(
+                    largest, errorOf(encoded[k] >> (8 * channel) & 0xffU, rounding, k, double(value(channel, k))));
     }
     return largest;
 }
@@ -60,11 +66,13 @@ constexpr double kMostError = 0.5 + 0.0035;
 
 }  // namespace
 
-TEST_CASE("sRGB encoding rounds the exact value as the dither says") {
+TEST_CASE("sRGB encoding rounds the exact value to the nearest step, or as the dither says") {
     CHECK(largestError(0.0F, 1.0F) < kMostError);
     CHECK(largestError(0.0F, 0.02F) < kMostError);  // the linear part, and where the curve begins
-    CHECK(largestEncodedError(1.0F) < kMostError);
-    CHECK(largestEncodedError(0.02F) < kMostError);
+    for (const render::Rounding rounding : {render::Rounding::nearest, render::Rounding::dithered}) {
+        CHECK(largestEncodedError(1.0F, rounding) < kMostError);
+        CHECK(largestEncodedError(0.02F, rounding) < kMostError);
+    }
 }
 
 TEST_CASE("Black is 0 and white is 255") {

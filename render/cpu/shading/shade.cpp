@@ -343,9 +343,11 @@ void colorBackgroundTile(const ShadingGeometry& geometry, const Shading& shading
     }
 }
 
-void encodeColors(const PointColors& colors, PixelColor* pixels) {
-    for (std::size_t first = 0; first < kTilePixels; first += hn::Lanes(D()))
-        storeSteps(encodedSteps(loadVec3(colors.rgb, first)), load(&kDither.alongCurve[first]), pixels + first);
+void encodeColors(const PointColors& colors, Rounding rounding, PixelColor* pixels) {
+    for (std::size_t first = 0; first < kTilePixels; first += hn::Lanes(D())) {
+        const V thresholds = rounding == Rounding::dithered ? load(&kDither.alongCurve[first]) : splat(0.5F);
+        storeSteps(encodedSteps(loadVec3(colors.rgb, first)), thresholds, pixels + first);
+    }
 }
 
 }  // namespace HWY_NAMESPACE
@@ -381,8 +383,8 @@ void colorBackgroundTile(const ShadingGeometry& geometry, const Shading& shading
     HWY_DYNAMIC_DISPATCH(colorBackgroundTile)(geometry, shading, isGround, target);
 }
 
-void encodeColors(const PointColors& colors, PixelColor* pixels) {
-    HWY_DYNAMIC_DISPATCH(encodeColors)(colors, pixels);
+void encodeColors(const PointColors& colors, Rounding rounding, PixelColor* pixels) {
+    HWY_DYNAMIC_DISPATCH(encodeColors)(colors, rounding, pixels);
 }
 
 }  // namespace render

@@ -52,8 +52,11 @@ void shade(const Shading& shading, const ShadingGeometry& geometry, const Shadin
 /// A pixel in sRGB: 8 bits per channel, red in the lowest byte.
 using PixelColor = std::uint32_t;
 
-/// Encodes the colors of a tile's kTilePixels points, which are ordered along kZCurve, as sRGB, dithered.
-void encodeColors(const PointColors& colors, PixelColor* pixels);
+/// How colors are rounded to whole steps of 1/255: to the nearest, or by the dither of section 5 of shading_model.h.
+enum class Rounding { nearest, dithered };
+
+/// Encodes kTilePixels colors as sRGB. Dithered ones are those of a tile's points, ordered along kZCurve.
+void encodeColors(const PointColors& colors, Rounding rounding, PixelColor* pixels);
 
 /// Where a tile's pixels are written.
 struct TileTarget {
