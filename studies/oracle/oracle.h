@@ -120,11 +120,18 @@ dvec3 shade(const Scene& scene, const Hit& hit, const Ray& ray, double screenT, 
 
 /// What a mirror shows in a direction: surroundings(d) of shading_model.h.
 dvec3 surroundings(const render::View& view, const dvec3& d);
+
+/// Direction to the light, unit length.
 dvec3 unitToLight(const render::View& view);
 
-/// The nearest point of the metaball surface along a ray, and of anything else.
+/// The nearest point of the metaball surface along a ray; Kind::none if there is none.
 /// @param isInside  whether the ray begins inside the metaballs
 Hit traceField(const Scene& scene, const Ray& ray, bool isInside);
+
+/// Whether a ray from outside meets the metaballs.
+bool isFieldMet(const Scene& scene, const Ray& ray);
+
+/// The nearest point along a ray of anything but metaballs; Kind::none if there is none.
 Hit traceSolids(const Scene& scene, const Ray& ray);
 
 /// Threshold of a pixel of the picture: (m + 1/2)/64 of section 5 of shading_model.h.
