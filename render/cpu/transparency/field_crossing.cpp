@@ -25,13 +25,11 @@
 #include <hwy/highway.h>
 
 #include "render/prepare/cells/simd_rays-inl.h"
+#include "render/prepare/cells/simd_sums-inl.h"
 
 #ifndef RENDER_FIELD_CROSSING_TYPES
 #define RENDER_FIELD_CROSSING_TYPES
 namespace render {
-
-/// Number of balls whose kernels are added up at a time, however wide the vectors are.
-constexpr std::size_t kBallBlock = 16;
 
 /// The balls that a ray meets within a cell, in whole blocks, of which the last is filled up with balls of no kernel.
 struct MetBalls {
@@ -59,20 +57,6 @@ struct FieldOnRay {
 HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
-
-constexpr std::size_t kVectors = kBallBlock / hn::MaxLanes(D());
-using Accumulators = std::array<V, kVectors>;
-
-/// The sum of all accumulators: the second half is added to the first until one is left.
-HWY_INLINE float total(const Accumulators& accumulators) {
-    alignas(64) std::array<float, kBallBlock> sums;
-    for (std::size_t v = 0; v < kVectors; ++v) store(accumulators[v], &sums[v * hn::Lanes(D())]);
-    const hn::CappedTag<float, 4> d;
-    for (const std::size_t half : {std::size_t{8}, std::size_t{4}})
-        for (std::size_t k = 0; k < half; k += hn::Lanes(d))
-            hn::Store(hn::Load(d, &sums[k]) + hn::Load(d, &sums[k + half]), d, &sums[k]);
-    return (sums[0] + sums[2]) + (sums[1] + sums[3]);
-}
 
 /// The forms of a vector of ellipsoids. (A SymmetricMatrix would not be compiled for the instruction set.)
 struct Forms {
@@ -155,25 +139,25 @@ void collect(const BallCells& cells, glm::ivec3 cell, const RayPart& ray, MetBal
             const std::size_t first = cells.begin[cellIndex(cells.count, low.x, y, z)];
             const std::size_t end = cells.begin[cellIndex(cells.count, high.x, y, z) + 1];
             // Whole vectors are stored, and a block to fill up the last.
-            met.reserve(met.count + (end - first) + 2 * kBallBlock);
+            met.reserve(met.count + (end - first) + 2 * kBlock);
             cells.isAnisotropic() ? addMet<true>(cells, first, end, ray, met)
                                   : addMet<false>(cells, first, end, ray, met);
         }
     }
-    std::fill_n(&met.w[met.count], kBallBlock, -1.0F);
-    std::fill_n(&met.c[met.count], kBallBlock, 0.0F);
-    std::fill_n(&met.s[met.count], kBallBlock, 0.0F);
+    std::fill_n(&met.w[met.count], kBlock, -1.0F);
+    std::fill_n(&met.c[met.count], kBlock, 0.0F);
+    std::fill_n(&met.s[met.count], kBlock, 0.0F);
 }
 
 FieldOnRay sampleAt(const MetBalls& met, float distance) {
     const D d;
     const V zero = splat(0.0F);
     const V at = splat(distance);
-    Accumulators field, slope;
+    BlockSum field, slope;
     field.fill(zero);
     slope.fill(zero);
-    for (std::size_t block = 0; block < met.count; block += kBallBlock) {
-        for (std::size_t v = 0; v < kVectors; ++v) {
+    for (std::size_t block = 0; block < met.count; block += kBlock) {
+        for (std::size_t v = 0; v < kVectorsPerBlock; ++v) {
             const std::size_t k = block + v * hn::Lanes(d);
             const V s = hn::LoadU(d, &met.s[k]);
             const V u = at * s - hn::LoadU(d, &met.c[k]);
@@ -191,10 +175,10 @@ FieldOnRay sampleAt(const MetBalls& met, float distance) {
 float boundOn(const MetBalls& met, float from, float to, bool isInside) {
     const D d;
     const V zero = splat(0.0F);
-    Accumulators bound;
+    BlockSum bound;
     bound.fill(zero);
-    for (std::size_t block = 0; block < met.count; block += kBallBlock) {
-        for (std::size_t v = 0; v < kVectors; ++v) {
+    for (std::size_t block = 0; block < met.count; block += kBlock) {
+        for (std::size_t v = 0; v < kVectorsPerBlock; ++v) {
             const std::size_t k = block + v * hn::Lanes(d);
             const V s = hn::LoadU(d, &met.s[k]);
             const V c = hn::LoadU(d, &met.c[k]);

@@ -1,6 +1,5 @@
-// The particles around one as vectors of lanes, and sums over them that are the same bits on every instruction set:
-// they run over blocks of 16 particles with 16 accumulators, however wide the vectors are, which are added up in a
-// fixed order. Included by Highway's rules, from which the guard below comes.
+// The particles around one as vectors of lanes, in the whole blocks that simd_sums-inl.h adds up. Included by Highway's
+// rules, from which the guard below comes.
 #if defined(RENDER_NEIGHBORHOOD_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RENDER_NEIGHBORHOOD_INL_H_
 #undef RENDER_NEIGHBORHOOD_INL_H_
@@ -15,15 +14,12 @@
 
 #include <hwy/highway.h>
 
-#include "render/prepare/cells/simd_rays-inl.h"
+#include "render/prepare/cells/simd_sums-inl.h"
 #include "render/prepare/skin/particle_cells.h"
 
 #ifndef RENDER_NEIGHBORHOOD
 #define RENDER_NEIGHBORHOOD
 namespace render {
-
-/// Number of particles whose kernels are added up at a time.
-constexpr std::size_t kBlock = 16;
 
 /// The particles near a cell in whole blocks: x, y, z and radius, and in the sums of their shifts (ParticleCells)
 /// these. The last block is filled up with particles out of reach.
@@ -38,9 +34,6 @@ struct Neighborhood {
 HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
-
-constexpr std::size_t kVectorsPerBlock = kBlock / hn::MaxLanes(D());
-using BlockSum = std::array<V, kVectorsPerBlock>;
 
 /// Copies the particles of a cell and of those around it.
 /// @tparam kValues  4, or 7 with the particles' shifts
@@ -70,17 +63,6 @@ void gather(const ParticleCells& cells, glm::ivec3 cell, int rings, Neighborhood
     for (std::size_t value = 0; value < kValues; ++value)
         std::fill_n(&neighborhood.values[value][neighborhood.size], kBlock, kOutOfReach[value]);
     neighborhood.size = (neighborhood.size + kBlock - 1) / kBlock * kBlock;
-}
-
-/// The sum of all accumulators: the second half is added to the first until one is left.
-HWY_INLINE float total(const BlockSum& sum) {
-    const hn::CappedTag<float, 4> d;
-    alignas(64) std::array<float, kBlock> sums;
-    for (std::size_t v = 0; v < kVectorsPerBlock; ++v) hn::Store(sum[v], D(), &sums[v * hn::Lanes(D())]);
-    for (const std::size_t half : {std::size_t{8}, std::size_t{4}})
-        for (std::size_t k = 0; k < half; k += hn::Lanes(d))
-            hn::Store(hn::Load(d, &sums[k]) + hn::Load(d, &sums[k + half]), d, &sums[k]);
-    return (sums[0] + sums[2]) + (sums[1] + sums[3]);
 }
 
 /// Vectors from a point to the particles of a neighborhood from index k on.
