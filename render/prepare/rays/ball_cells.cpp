@@ -1,10 +1,12 @@
-// A counting sort: balls keep the order of their particles within a cell.
+// Fits a grid to the balls, and sorts them into its cells: balls keep the order of their particles within a cell.
 #include "render/prepare/rays/ball_cells.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "render/picture/bounds.h"
+#include "render/prepare/cells/cell_order.h"
 #include "render/prepare/cells/tiles.h"
 #include "render/prepare/skin/ellipsoid.h"
 
@@ -13,7 +15,6 @@ namespace render {
 namespace {
 
 constexpr std::size_t kMostLanes = 16;  // most numbers of a vector
-constexpr double kMostCells = 4e6;      // largest number of cells; chosen: they take 16 MB
 
 Ellipsoid shapeOf(const SkinBall& ball) {
     const SymmetricMatrix<float>& m = ball.spread;
@@ -34,7 +35,7 @@ void placeCells(const View& view, std::span<const SkinBall> balls, glm::vec3 eye
     const glm::vec3 size = bounds.high - bounds.low;
     // A margin of one cell around the centers holds the kernels.
     const auto countAlong = [&](int axis) { return std::floor(double(size[axis]) / double(cells.side)) + 3.0; };
-    while (countAlong(0) * countAlong(1) * countAlong(2) > kMostCells) cells.side *= 1.5F;
+    while (countAlong(0) * countAlong(1) * countAlong(2) > kMostCellsToSort) cells.side *= 1.5F;
     cells.low = bounds.low - cells.side;
     for (int axis = 0; axis < 3; ++axis) cells.count[axis] = static_cast<int>(countAlong(axis));
 }
@@ -51,33 +52,30 @@ BallCells ballCells(const View& view, std::span<const SkinBall> balls, glm::vec3
     BallCells cells;
     if (std::ranges::none_of(particles, [](const Sphere& particle) { return particle.radius > 0.0F; })) return cells;
     placeCells(view, balls, eye, cells);
-    const auto cellOf = [&](std::size_t k) {
-        const glm::ivec3 cell =
-            clamp(glm::ivec3((balls[k].center - eye - cells.low) / cells.side), glm::ivec3(0), cells.count - 1);
-        return cellIndex(cells.count, cell.x, cell.y, cell.z);
-    };
-    cells.begin.assign(cellIndex(cells.count, 0, 0, cells.count.z) + 1, 0);
-    for (std::size_t k = 0; k < balls.size(); ++k)
-        if (particles[k].radius > 0.0F) ++cells.begin[cellOf(k) + 1];
-    for (std::size_t k = 1; k < cells.begin.size(); ++k) cells.begin[k] += cells.begin[k - 1];
-    std::vector<std::uint32_t> next(cells.begin.begin(), cells.begin.end() - 1);
-    for (std::vector<float>* values : {&cells.x, &cells.y, &cells.z, &cells.peak, &cells.slope})
-        values->resize(cells.begin.back() + kMostLanes);
-    if (view.field.skin == Skin::anisotropic)
-        for (std::vector<float>& values : cells.form) values.resize(cells.begin.back() + kMostLanes);
-    cells.particle.resize(cells.begin.back());
+    std::vector<std::uint32_t> cellOf(balls.size(), kNoCell);
     for (std::size_t k = 0; k < balls.size(); ++k) {
         if (particles[k].radius <= 0.0F) continue;
-        const std::size_t to = next[cellOf(k)]++;
-        const BallKernel kernel = kernelOf(balls[k]);
-        const glm::vec3 center = balls[k].center - eye;
-        cells.x[to] = center.x;
-        cells.y[to] = center.y;
-        cells.z[to] = center.z;
-        cells.peak[to] = kernel.peak;
-        cells.slope[to] = kernel.slope;
-        cells.particle[to] = static_cast<std::int32_t>(k);
-        if (view.field.skin == Skin::anisotropic) setForm(shapeOf(balls[k]).form, to, cells);
+        const glm::ivec3 cell((balls[k].center - eye - cells.low) / cells.side);
+        const glm::ivec3 inGrid = clamp(cell, glm::ivec3(0), cells.count - 1);
+        cellOf[k] = static_cast<std::uint32_t>(cellIndex(cells.count, inGrid.x, inGrid.y, inGrid.z));
+    }
+    CellOrder order = orderByCell(cellOf, cellIndex(cells.count, 0, 0, cells.count.z));
+    cells.begin = std::move(order.begin);
+    cells.particle.assign(order.items.begin(), order.items.end());
+    const std::size_t size = cells.particle.size() + kMostLanes;
+    for (std::vector<float>* values : {&cells.x, &cells.y, &cells.z, &cells.peak, &cells.slope}) values->resize(size);
+    if (view.field.skin == Skin::anisotropic)
+        for (std::vector<float>& values : cells.form) values.resize(size);
+    for (std::size_t k = 0; k < order.items.size(); ++k) {
+        const SkinBall& ball = balls[order.items[k]];
+        const BallKernel kernel = kernelOf(ball);
+        const glm::vec3 center = ball.center - eye;
+        cells.x[k] = center.x;
+        cells.y[k] = center.y;
+        cells.z[k] = center.z;
+        cells.peak[k] = kernel.peak;
+        cells.slope[k] = kernel.slope;
+        if (view.field.skin == Skin::anisotropic) setForm(shapeOf(ball).form, k, cells);
     }
     return cells;
 }

@@ -1,10 +1,13 @@
-// Sorts particles into cells by a counting sort.
+// Fits a grid to the particles, and sorts them into its cells.
 #include "render/prepare/skin/particle_cells.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "render/picture/bounds.h"
+#include "render/prepare/cells/cell_order.h"
 #include "render/prepare/cells/tiles.h"
 
 namespace render {
@@ -19,7 +22,7 @@ void fitToPositions(std::span<const Sphere> particles, ParticleCells& cells) {
     const auto countAlong = [&](int axis) {
         return std::floor(double(bounds.high[axis] - bounds.low[axis]) / cells.side) + 1.0;
     };
-    while (countAlong(0) * countAlong(1) * countAlong(2) > kMostCells) cells.side *= 2.0F;
+    while (countAlong(0) * countAlong(1) * countAlong(2) > kMostCellsToSort) cells.side *= 2.0F;
     for (int axis = 0; axis < 3; ++axis) cells.count[axis] = static_cast<int>(countAlong(axis));
 }
 
@@ -42,27 +45,22 @@ ParticleCells sortIntoCells(std::span<const Sphere> particles, float reach) {
     ParticleCells cells;
     fitToRadii(particles, reach, cells);
     fitToPositions(particles, cells);
-    std::vector<std::uint32_t> cellOf(particles.size());
-    cells.begin.assign(cellIndex(cells.count, 0, 0, cells.count.z) + 1, 0);
+    std::vector<std::uint32_t> cellOf(particles.size(), kNoCell);
     for (std::size_t k = 0; k < particles.size(); ++k) {
         if (particles[k].radius <= 0.0F) continue;
         const glm::ivec3 cell = cells.cellOf(particles[k].center);
         cellOf[k] = static_cast<std::uint32_t>(cellIndex(cells.count, cell.x, cell.y, cell.z));
-        ++cells.begin[cellOf[k] + 1];
     }
-    for (std::size_t k = 1; k < cells.begin.size(); ++k) cells.begin[k] += cells.begin[k - 1];
-    std::vector<std::uint32_t> next(cells.begin.begin(), cells.begin.end() - 1);
-    for (std::vector<float>* values : {&cells.x, &cells.y, &cells.z, &cells.radius}) values->resize(cells.begin.back());
-    cells.index.resize(cells.begin.back());
-    for (std::size_t k = 0; k < particles.size(); ++k) {
-        const Sphere& particle = particles[k];
-        if (particle.radius <= 0.0F) continue;
-        const std::uint32_t sortedIndex = next[cellOf[k]]++;
-        cells.x[sortedIndex] = particle.center.x;
-        cells.y[sortedIndex] = particle.center.y;
-        cells.z[sortedIndex] = particle.center.z;
-        cells.radius[sortedIndex] = particle.radius;
-        cells.index[sortedIndex] = static_cast<std::uint32_t>(k);
+    CellOrder order = orderByCell(cellOf, cellIndex(cells.count, 0, 0, cells.count.z));
+    cells.begin = std::move(order.begin);
+    cells.index = std::move(order.items);
+    for (std::vector<float>* values : {&cells.x, &cells.y, &cells.z, &cells.radius}) values->resize(cells.index.size());
+    for (std::size_t k = 0; k < cells.index.size(); ++k) {
+        const Sphere& particle = particles[cells.index[k]];
+        cells.x[k] = particle.center.x;
+        cells.y[k] = particle.center.y;
+        cells.z[k] = particle.center.z;
+        cells.radius[k] = particle.radius;
     }
     return cells;
 }

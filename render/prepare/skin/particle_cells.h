@@ -32,14 +32,11 @@ struct ParticleCells {
     glm::ivec3 cellOf(glm::vec3 at) const { return min(glm::ivec3((at - low) / side), count - 1); }
 };
 
-/// Largest number of cells of a grid; chosen: they take 16 MB.
-inline constexpr double kMostCells = 4e6;
-
 /// Sets the radii, and makes cells as wide as particles influence each other in a smooth skin.
 /// @param reach  reach of the field, in radii
 void fitToRadii(std::span<const Sphere> particles, float reach, ParticleCells& cells);
 
-/// Sorts the particles whose radius is above 0 into cells by a counting sort.
+/// Sorts the particles whose radius is above 0 into cells.
 /// @param reach  reach of the field, in radii
 ParticleCells sortIntoCells(std::span<const Sphere> particles, float reach);
 

@@ -23,6 +23,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "render/prepare/cells/cell_order.h"
 #include "render/prepare/cells/simd_rays-inl.h"
 #include "render/prepare/cells/strays.h"
 #include "render/prepare/skin/neighborhood-inl.h"
@@ -221,7 +222,7 @@ std::vector<SkinBall> skinOf(const View& view) {
     fitToRadii(view.particles, view.field.reach, widest);
     // A little wider than particles influence each other, because distances are rounded.
     const float gap = (view.field.skin == Skin::anisotropic ? 2.002F : 1.001F) * widest.side;
-    const auto groups = separateGroups(view.particles, gap, kMostCells);
+    const auto groups = separateGroups(view.particles, gap, kMostCellsToSort);
     if (groups.empty()) smooth(view.particles, view.field, balls);
     for (const std::vector<std::uint32_t>& group : groups) smoothGroup(view.particles, group, view.field, balls);
     return balls;
