@@ -157,3 +157,21 @@ TEST_CASE("A record of other pictures, or no record, is no run", "[gallery]") {
     damaged.erase("steps");
     CHECK_FALSE(tools::galleryRunIn(damaged, {{"size", 3}}));
 }
+
+TEST_CASE("docs/gallery.md has every scene outside hard/ with the words of its file", "[gallery][docs]") {
+    const std::string page = textOf(fs::path(GLOBULAR_SOURCE) / "docs/gallery.md");
+    const auto scenes = program::run("scenes --json");
+    std::istringstream lines(scenes.out);
+    int count = 0;
+    for (std::string line; std::getline(lines, line);) {
+        const auto scene = nlohmann::json::parse(line);
+        const std::string name = scene["name"];
+        if (name.starts_with("hard/")) continue;
+        INFO(name);
+        CHECK(contains(page, "# " + scene["title"].get<std::string>() + "\n"));
+        CHECK(contains(page, "](" + name + ".png)"));
+        CHECK(fs::exists(fs::path(GLOBULAR_SOURCE) / "docs" / (name + ".png")));
+        ++count;
+    }
+    CHECK(count > 30);
+}
