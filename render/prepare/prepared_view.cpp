@@ -134,7 +134,7 @@ void prepareView(const View& view, const PrepareSettings& settings, PreparedView
             to.meshes = drawnMeshes(drawn, to.frame.eye, std::move(to.meshes));
             to.skin = to.hasMetaballs ? skinOf(drawn) : std::vector<SkinBall>{};
         });
-        tbb::parallel_invoke([&] { timed(times.bin, [&] { prepareTransparency(to); }); },
+        tbb::parallel_invoke([&] { timed(times.rays, [&] { prepareTransparency(to); }); },
                              [&] { timed(times.bin, [&] { binForCamera(to); }); },
                              [&] { timed(times.shadow, [&] { binForLight(to); }); });
     };

@@ -38,9 +38,9 @@ DrawTimes medianStages(const std::vector<DrawTimes>& times) {
         for (const DrawTimes& time : times) values.push_back(time.*stage);
         return median(values);
     };
-    return {medianOf(&DrawTimes::bin),     medianOf(&DrawTimes::occlusion), medianOf(&DrawTimes::shadow),
-            medianOf(&DrawTimes::cast),    medianOf(&DrawTimes::color),     medianOf(&DrawTimes::upload),
-            medianOf(&DrawTimes::readBack)};
+    return {medianOf(&DrawTimes::bin),    medianOf(&DrawTimes::occlusion), medianOf(&DrawTimes::shadow),
+            medianOf(&DrawTimes::rays),   medianOf(&DrawTimes::cast),      medianOf(&DrawTimes::color),
+            medianOf(&DrawTimes::upload), medianOf(&DrawTimes::readBack)};
 }
 
 /// Wall-clock time of drawing `count` frames, each while the one before is encoded, as in the rendering of a scene, s.

@@ -73,15 +73,16 @@ const char* nameOf(render::Skin skin) {
 }
 
 std::string picturesCsv(const std::vector<PictureRow>& rows) {
-    std::string csv = std::string(kSubjectColumns) +
-                      ",draw_ms,draw_at_rest_ms,bin_ms,occlusion_ms,shadow_ms,cast_ms,color_ms,upload_ms,read_back_ms,"
-                      "png_ms,mp4_ms,mp4_once_ms,with_png_ms,with_mp4_ms,time_ratio,rmse_ratio,rmse,ssim,wrong_hits,"
-                      "depth_error_radii,normal_error_degrees\n";
+    std::string csv =
+        std::string(kSubjectColumns) +
+        ",draw_ms,draw_at_rest_ms,bin_ms,occlusion_ms,shadow_ms,rays_ms,cast_ms,color_ms,upload_ms,read_back_ms,"
+        "png_ms,mp4_ms,mp4_once_ms,with_png_ms,with_mp4_ms,time_ratio,rmse_ratio,rmse,ssim,wrong_hits,"
+        "depth_error_radii,normal_error_degrees\n";
     for (const PictureRow& row : rows) {
         const render::DrawTimes& stages = row.moving.stages;
-        csv +=
-            subjectFields(row) + timeFields({row.moving.draw, row.atRest.draw, stages.bin, stages.occlusion,
-                                             stages.shadow, stages.cast, stages.color, stages.upload, stages.readBack});
+        csv += subjectFields(row) +
+               timeFields({row.moving.draw, row.atRest.draw, stages.bin, stages.occlusion, stages.shadow, stages.rays,
+                           stages.cast, stages.color, stages.upload, stages.readBack});
         if (const auto& encoding = row.encoding)
             csv += timeFields({encoding->png, encoding->mp4, encoding->mp4Once, encoding->withPng, encoding->withMp4});
         else
