@@ -75,6 +75,7 @@ bool isSeenThrough(const render::View& view) {
 
 TEST_CASE("Both renderers draw the same picture of every built-in scene", "[opengl]") {
     for (const scenes::LibraryEntry& entry : scenes::listScenes(GLOBULAR_SOURCE "/scenes/library")) {
+        if (entry.name.starts_with("measured/")) continue;  // earlier versions of other scenes
         const scenes::Scene scene = sceneOf(entry, "spheres");
         engine::Simulation simulation = engine::start(scene.setup);
         scenes::advanceToFrame(scene, simulation, momentOf(entry.name).frame);

@@ -67,7 +67,8 @@ void print(const studies::BenchRow& row, const RendererRecord& renderer) {
                row.bytesPerParticle, row.stateHash);
 }
 
-/// The scenes whose frames are measured: one for each kind of material, and honey, which needs the implicit steppers.
+/// The scenes of measured/ whose frames are measured: one for each kind of material, and honey, which needs the
+/// implicit steppers.
 constexpr const char* kFrameScenes[] = {"liquid", "solid", "powder", "honey"};
 
 using RowListener = std::function<void(const studies::BenchRow&, const RendererRecord&)>;
@@ -77,7 +78,8 @@ void benchFrames(const BenchOptions& options, const RendererChoice& choice, int 
     for (const char* name : kFrameScenes) {
         const bool draws = settings.wants(studies::kDrawFrame, name);
         if (!draws && !settings.wants(studies::kSimulateFrame, name)) continue;
-        const scenes::Scene scene = scenes::loadScene(scenes::resolveScene(name, sceneFolder()), {});
+        const std::string path = scenes::resolveScene(fmt::format("measured/{}", name), sceneFolder());
+        const scenes::Scene scene = scenes::loadScene(path, {});
         const OpenedRenderer opened =
             draws ? openRenderer(choice, scene.size, render::Quality::normal, threads) : OpenedRenderer{};
         for (const studies::BenchRow& row : studies::benchFrames(name, scene, opened.renderer.get(), settings.rounds))

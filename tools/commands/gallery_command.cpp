@@ -31,7 +31,7 @@ struct GalleryOptions {
     RunOptions run;
     DrawOptions draw;
     std::string folder = "out/gallery";
-    std::vector<std::string> names;  ///< scenes and folders of the library; empty: all outside hard/
+    std::vector<std::string> names;  ///< scenes and folders of the library; empty: all outside hard/ and measured/
     std::string film = "mp4";        ///< extension of the films, without the dot
     bool overwrite = false;          ///< whether scenes that are done are drawn again
     bool printsMarkdown = false;
@@ -45,6 +45,11 @@ std::vector<GalleryGroup> emptyGroups() {
          "The paper's scenes",
          "They run the paper's method, symplectic Euler with a fixed step of 0.01 s. `globular figures` draws the four "
          "figures as\nstills, strips and videos.",
+         {}},
+        {"measured",
+         "The measured scenes",
+         "Steppers and frames are measured in them. They stay as they are, so that figures of different versions can "
+         "be\ncompared.",
          {}},
         {"hard",
          "The hard cases",
@@ -61,7 +66,9 @@ std::string folderOf(const std::string& name) {
 std::vector<scenes::LibraryEntry> selected(const GalleryOptions& options) {
     std::vector<scenes::LibraryEntry> library = scenes::listScenes(sceneFolder());
     if (options.names.empty()) {
-        std::erase_if(library, [](const auto& scene) { return folderOf(scene.name) == "hard"; });
+        std::erase_if(library, [](const auto& scene) {
+            return folderOf(scene.name) == "hard" || folderOf(scene.name) == "measured";
+        });
         return library;
     }
     const auto isAskedFor = [&](const scenes::LibraryEntry& scene, const std::string& name) {

@@ -35,7 +35,7 @@ constexpr double kFromShare = 0.4;
 
 /// What is measured: the steppers' accuracy in a scene over a window of simulated time.
 struct Subject {
-    std::string name;  ///< name in tables and of files: "liquid", "hard-honey", "powder-2s"
+    std::string name;  ///< name in tables and of files: "measured-liquid", "hard-honey", "measured-powder-2s"
     scenes::Scene scene;
     double from = 0.0;    ///< start of the window, s
     double window = 0.0;  ///< length of the window, s
@@ -64,7 +64,7 @@ Subject parseSubject(const std::string& text, const AccuracyOptions& options) {
         const std::string seconds = text.substr(colon + 1);
         subject.window = parseNumber<double>(seconds).value_or(0.0);
         if (!(subject.window > 0.0))
-            throw scenes::InputError(text, "after the colon comes how long to run, in seconds: powder:2");
+            throw scenes::InputError(text, "after the colon comes how long to run, in seconds: measured/powder:2");
         scene = text.substr(0, colon);
         suffix = "-" + seconds + "s";
     }
@@ -214,8 +214,8 @@ void addStudyAccuracy(CLI::App& program) {
     const auto options = std::make_shared<AccuracyOptions>();
     command.add_option(
         "SCENE", options->scenes,
-        "scene files or names, each with a window of its own as in powder:2 (default: liquid solid powder "
-        "fountain honey; powder:2 too unless quick; with --whole also lava mud sand cascade splash)");
+        "scene files or names, each with a window of its own as in measured/powder:2 (default: liquid solid powder "
+        "fountain honey of measured/; powder:2 too unless quick; with --whole all of measured/)");
     CLI::Option* whole = command.add_flag(
         "--whole", options->whole, "whole scenes instead of windows: auto against the best fixed stepper and step");
     command.add_option("--set", options->overrides, "change a key of every scene")
@@ -228,16 +228,17 @@ void addStudyAccuracy(CLI::App& program) {
         ->check(numberAboveZero())
         ->excludes(whole);
     addStudyFlags(command, *options, "a coarse measurement: fewer runs, timed once");
-    command.footer("Example: globular study accuracy liquid powder -o out/accuracy --threads 2");
+    command.footer("Example: globular study accuracy measured/liquid measured/powder -o out/accuracy --threads 2");
     command.callback([options] {
         std::vector<std::string>& scenes = options->scenes;
         if (scenes.empty()) {
-            scenes = {"liquid", "solid", "powder", "fountain", "honey"};
+            scenes = {"measured/liquid", "measured/solid", "measured/powder", "measured/fountain", "measured/honey"};
             // Two seconds of a powder are long enough for chaos, so that statistics are compared instead of positions.
             if (options->whole)
-                scenes.insert(scenes.end(), {"lava", "mud", "sand", "cascade", "splash"});
+                scenes.insert(scenes.end(), {"measured/lava", "measured/mud", "measured/sand", "measured/cascade",
+                                             "measured/splash"});
             else if (!options->quick)
-                scenes.emplace_back("powder:2");
+                scenes.emplace_back("measured/powder:2");
         }
         options->whole ? studyWhole(*options) : study(*options);
     });
