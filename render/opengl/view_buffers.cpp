@@ -1,4 +1,5 @@
-// Lists go up as they are prepared; what the CPU keeps component by component is interleaved to four numbers a texel.
+// Lists go up as they are prepared, in few buffers, because a shader has few samplers; what the CPU keeps component by
+// component is interleaved to four numbers a texel.
 #include "render/opengl/view_buffers.h"
 
 #include <algorithm>
@@ -37,21 +38,9 @@ bool occludesObstacles(const PreparedView& view) {
 }
 
 ViewBuffers::ViewBuffers(const Gl& gl)
-    : spheres_(gl, GL_RGBA32F),
+    : lists_(gl, GL_R32I),
+      listedTexels_(gl, GL_RGBA32F),
       sphereAttributes_(gl, GL_RGBA32UI),
-      sphereBegins_(gl, GL_R32I),
-      sphereItems_(gl, GL_R32I),
-      tileSpheres_(gl, GL_RGBA32F),
-      boxes_(gl, GL_RGBA32F),
-      boxBegins_(gl, GL_R32I),
-      tileBoxes_(gl, GL_RGBA32F),
-      lines_(gl, GL_RGBA32F),
-      lineBegins_(gl, GL_R32I),
-      lineItems_(gl, GL_R32I),
-      casters_(gl, GL_RGBA32F),
-      casterBegins_(gl, GL_R32I),
-      boxCasters_(gl, GL_RGBA32F),
-      boxCasterBegins_(gl, GL_R32I),
       groundSky_(gl, GL_R32F),
       skyGrid_(gl, GL_R32F),
       glowGrid_(gl, GL_RGBA32F),
@@ -59,20 +48,42 @@ ViewBuffers::ViewBuffers(const Gl& gl)
              TextureBuffer(gl, GL_R32I), TextureBuffer(gl, GL_R32I)} {}
 
 void ViewBuffers::upload(const PreparedView& view, std::span<const char> meshTiles) {
-    uploadList(spheres_, view.viewSpheres, "the spheres");
+    numbers_.assign(kViewListCount, 0);
+    texels_.clear();
+    addSpheres(view);
+    addCasters(view);
+    addBoxes(view);
+    addLines(view);
+    uploadList(lists_, numbers_, "the lists of what tiles show");
+    uploadList(listedTexels_, texels_, "the lists of what tiles show");
     uploadList(sphereAttributes_, view.sphereAttributes, "the spheres' colors");
-    uploadList(sphereBegins_, view.sphereTiles.begin, "the tiles");
-    uploadList(sphereItems_, view.sphereTiles.items, "the tiles' lists of spheres");
-    // Shaders read a sphere of a list at once, without its index.
-    std::vector<ViewSphere> spheres(view.sphereTiles.items.size());
-    tbb::parallel_for(std::size_t{0}, spheres.size(),
-                      [&](std::size_t k) { spheres[k] = view.viewSpheres[view.sphereTiles.items[k]]; });
-    uploadList(tileSpheres_, spheres, "the tiles' lists of spheres");
     uploadTiles(view, meshTiles);
-    uploadCasters(view);
-    uploadBoxes(view);
-    uploadLines(view);
     uploadSky(view);
+}
+
+void ViewBuffers::add(ViewList list, std::span<const std::uint32_t> numbers) {
+    numbers_[static_cast<std::size_t>(list)] = static_cast<std::int32_t>(numbers_.size());
+    numbers_.insert(numbers_.end(), numbers.begin(), numbers.end());
+}
+
+std::span<glm::vec4> ViewBuffers::addTexels(ViewList list, std::size_t count) {
+    const std::size_t place = texels_.size();
+    numbers_[static_cast<std::size_t>(list)] = static_cast<std::int32_t>(place);
+    texels_.resize(place + count);
+    return std::span(texels_).subspan(place);
+}
+
+void ViewBuffers::addSpheres(const PreparedView& view) {
+    const std::vector<ViewSphere>& spheres = view.viewSpheres;
+    const std::vector<std::uint32_t>& items = view.sphereTiles.items;
+    add(ViewList::sphereBegins, view.sphereTiles.begin);
+    add(ViewList::sphereItems, items);
+    const auto texelOf = [&](std::size_t k) { return glm::vec4(spheres[k].center, spheres[k].radius); };
+    const std::span<glm::vec4> each = addTexels(ViewList::spheres, spheres.size());
+    tbb::parallel_for(std::size_t{0}, each.size(), [&](std::size_t k) { each[k] = texelOf(k); });
+    // Shaders read a sphere of a list at once, without its index.
+    const std::span<glm::vec4> listed = addTexels(ViewList::tileSpheres, items.size());
+    tbb::parallel_for(std::size_t{0}, listed.size(), [&](std::size_t k) { listed[k] = texelOf(items[k]); });
 }
 
 void ViewBuffers::uploadTiles(const PreparedView& view, std::span<const char> meshTiles) {
@@ -84,56 +95,53 @@ void ViewBuffers::uploadTiles(const PreparedView& view, std::span<const char> me
         uploadList(tiles_[kind], tileIndices_[kind], "the tiles");
 }
 
-void ViewBuffers::uploadCasters(const PreparedView& view) {
-    uploadList(casterBegins_, view.lightGrid.begin, "the cells of the light's grid");
+void ViewBuffers::addCasters(const PreparedView& view) {
+    add(ViewList::casterBegins, view.lightGrid.begin);
     const LightSpheres& from = view.lightGrid.spheres;
-    std::vector<glm::vec4> casters(from.u.size());
+    const std::span<glm::vec4> casters = addTexels(ViewList::casters, from.u.size());
     tbb::parallel_for(std::size_t{0}, casters.size(), [&](std::size_t k) {
         casters[k] = {from.u[k], from.v[k], from.height[k], from.radius[k]};
     });
-    uploadList(casters_, casters, "the lists of spheres that cast shadows");
 }
 
-void ViewBuffers::uploadBoxes(const PreparedView& view) {
+void ViewBuffers::addBoxes(const PreparedView& view) {
     const std::vector<BoxObstacle>& obstacles = view.view->boxObstacles;
     const glm::vec3 eye = view.frame.eye;
-    std::vector<glm::vec4> boxes;
-    for (const BoxObstacle& box : obstacles) {
-        boxes.emplace_back(box.minimum - eye, 0.0F);
-        boxes.emplace_back(box.maximum - eye, 0.0F);
-        boxes.emplace_back(box.color, 0.0F);
+    const std::span<glm::vec4> boxes = addTexels(ViewList::boxes, 3 * obstacles.size());
+    for (std::size_t k = 0; k < obstacles.size(); ++k) {
+        boxes[3 * k] = glm::vec4(obstacles[k].minimum - eye, 0.0F);
+        boxes[3 * k + 1] = glm::vec4(obstacles[k].maximum - eye, 0.0F);
+        boxes[3 * k + 2] = glm::vec4(obstacles[k].color, 0.0F);
     }
-    uploadList(boxes_, boxes, "the boxes");
     // Shaders read a box of a list at once, and its index with it: floats have all integers up to 2^24.
-    std::vector<glm::vec4> listed;
-    listed.reserve(2 * view.boxTiles.items.size());
-    for (const std::uint32_t index : view.boxTiles.items) {
-        listed.emplace_back(obstacles[index].minimum - eye, static_cast<float>(index));
-        listed.emplace_back(obstacles[index].maximum - eye, view.boxFronts[index]);
+    const std::vector<std::uint32_t>& items = view.boxTiles.items;
+    add(ViewList::boxBegins, view.boxTiles.begin);
+    const std::span<glm::vec4> listed = addTexels(ViewList::tileBoxes, 2 * items.size());
+    for (std::size_t k = 0; k < items.size(); ++k) {
+        const BoxObstacle& box = obstacles[items[k]];
+        listed[2 * k] = glm::vec4(box.minimum - eye, static_cast<float>(items[k]));
+        listed[2 * k + 1] = glm::vec4(box.maximum - eye, view.boxFronts[items[k]]);
     }
-    uploadList(boxBegins_, view.boxTiles.begin, "the tiles");
-    uploadList(tileBoxes_, listed, "the tiles' lists of boxes");
-    listed.clear();
-    for (std::size_t k = 0; k < view.lightBoxes.boxes.index.size(); ++k) {
-        const std::uint32_t index = view.lightBoxes.boxes.index[k];
-        const BoxObstacle& box = view.shadowBoxes.boxes[index];
-        listed.emplace_back(box.minimum - eye, view.lightBoxes.boxes.top[k]);
-        listed.emplace_back(box.maximum - eye, index < view.shadowBoxes.subtractedCount ? -1.0F : 1.0F);
+    const std::vector<std::uint32_t>& lit = view.lightBoxes.boxes.index;
+    add(ViewList::boxCasterBegins, view.lightBoxes.begin);
+    const std::span<glm::vec4> casters = addTexels(ViewList::boxCasters, 2 * lit.size());
+    for (std::size_t k = 0; k < lit.size(); ++k) {
+        const BoxObstacle& box = view.shadowBoxes.boxes[lit[k]];
+        casters[2 * k] = glm::vec4(box.minimum - eye, view.lightBoxes.boxes.top[k]);
+        casters[2 * k + 1] = glm::vec4(box.maximum - eye, lit[k] < view.shadowBoxes.subtractedCount ? -1.0F : 1.0F);
     }
-    uploadList(boxCasterBegins_, view.lightBoxes.begin, "the cells of the light's grid of boxes");
-    uploadList(boxCasters_, listed, "the lists of boxes that cast shadows");
 }
 
-void ViewBuffers::uploadLines(const PreparedView& view) {
-    std::vector<glm::vec4> lines;
-    for (const ScreenLine& line : view.lines.lines) {
-        lines.emplace_back(line.from, line.to);
-        lines.emplace_back(line.fromDepth, line.toDepth, line.width, 0.0F);
-        lines.emplace_back(line.color, 0.0F);
+void ViewBuffers::addLines(const PreparedView& view) {
+    add(ViewList::lineBegins, view.lines.tiles.begin);
+    add(ViewList::lineItems, view.lines.tiles.items);
+    const std::vector<ScreenLine>& lines = view.lines.lines;
+    const std::span<glm::vec4> texels = addTexels(ViewList::lines, 3 * lines.size());
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+        texels[3 * k] = glm::vec4(lines[k].from, lines[k].to);
+        texels[3 * k + 1] = {lines[k].fromDepth, lines[k].toDepth, lines[k].width, 0.0F};
+        texels[3 * k + 2] = glm::vec4(lines[k].color, 0.0F);
     }
-    uploadList(lines_, lines, "the lines");
-    uploadList(lineBegins_, view.lines.tiles.begin, "the tiles");
-    uploadList(lineItems_, view.lines.tiles.items, "the tiles' lists of lines");
 }
 
 void ViewBuffers::uploadSky(const PreparedView& view) {
@@ -150,24 +158,8 @@ std::vector<TextureBinding> ViewBuffers::bindings() const {
     const auto of = [](const char* name, const TextureBuffer& buffer) {
         return TextureBinding{name, GL_TEXTURE_BUFFER, buffer.texture()};
     };
-    return {of("spheres", spheres_),
-            of("sphereAttributes", sphereAttributes_),
-            of("sphereBegins", sphereBegins_),
-            of("sphereItems", sphereItems_),
-            of("tileSpheres", tileSpheres_),
-            of("boxes", boxes_),
-            of("boxBegins", boxBegins_),
-            of("tileBoxes", tileBoxes_),
-            of("lines", lines_),
-            of("lineBegins", lineBegins_),
-            of("lineItems", lineItems_),
-            of("casters", casters_),
-            of("casterBegins", casterBegins_),
-            of("boxCasters", boxCasters_),
-            of("boxCasterBegins", boxCasterBegins_),
-            of("groundSky", groundSky_),
-            of("skyGrid", skyGrid_),
-            of("glowGrid", glowGrid_)};
+    return {of("lists", lists_),         of("listedTexels", listedTexels_), of("sphereAttributes", sphereAttributes_),
+            of("groundSky", groundSky_), of("skyGrid", skyGrid_),           of("glowGrid", glowGrid_)};
 }
 
 }  // namespace render

@@ -22,6 +22,26 @@ enum class TileClass : std::uint8_t {
 };
 inline constexpr std::size_t kTileClassCount = 5;
 
+/// The lists of a view that lie one after another in two buffers, in the order of shaders/lists.glsl: first those of
+/// whole numbers, then those of texels.
+enum class ViewList : std::uint8_t {
+    sphereBegins,
+    sphereItems,
+    boxBegins,
+    lineBegins,
+    lineItems,
+    casterBegins,
+    boxCasterBegins,
+    spheres,
+    tileSpheres,
+    boxes,
+    tileBoxes,
+    lines,
+    casters,
+    boxCasters
+};
+inline constexpr std::size_t kViewListCount = 14;
+
 class ViewBuffers {
  public:
     explicit ViewBuffers(const Gl& gl);
@@ -43,15 +63,20 @@ class ViewBuffers {
 
  private:
     void uploadTiles(const PreparedView& view, std::span<const char> meshTiles);
-    void uploadCasters(const PreparedView& view);
-    void uploadBoxes(const PreparedView& view);
-    void uploadLines(const PreparedView& view);
+    void addSpheres(const PreparedView& view);
+    void addCasters(const PreparedView& view);
+    void addBoxes(const PreparedView& view);
+    void addLines(const PreparedView& view);
     void uploadSky(const PreparedView& view);
 
-    TextureBuffer spheres_, sphereAttributes_, sphereBegins_, sphereItems_, tileSpheres_;
-    TextureBuffer boxes_, boxBegins_, tileBoxes_, lines_, lineBegins_, lineItems_;
-    TextureBuffer casters_, casterBegins_, boxCasters_, boxCasterBegins_;
-    TextureBuffer groundSky_, skyGrid_, glowGrid_;
+    /// Appends a list of whole numbers.
+    void add(ViewList list, std::span<const std::uint32_t> numbers);
+    /// Appends a list of texels, which are to be filled in.
+    std::span<glm::vec4> addTexels(ViewList list, std::size_t count);
+
+    std::vector<std::int32_t> numbers_;  ///< of `lists`, which begin with the place of each list
+    std::vector<glm::vec4> texels_;      ///< of `listedTexels`
+    TextureBuffer lists_, listedTexels_, sphereAttributes_, groundSky_, skyGrid_, glowGrid_;
     std::array<TextureBuffer, kTileClassCount> tiles_;
     std::array<std::vector<std::int32_t>, kTileClassCount> tileIndices_;
 };

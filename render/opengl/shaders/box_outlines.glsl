@@ -23,8 +23,8 @@ float rayPastEdge(vec2 pixel, vec3 corner, vec3 edge) {
 
 // The share of a pixel that a face covers. @param id  hit id of the face, less kHitBox
 float faceShare(int id, vec2 middle) {
-    vec3 low = texelFetch(boxes, 3 * (id >> 4)).xyz;
-    vec3 size = texelFetch(boxes, 3 * (id >> 4) + 1).xyz - low;
+    vec3 low = texelOf(kBoxes, 3 * (id >> 4)).xyz;
+    vec3 size = texelOf(kBoxes, 3 * (id >> 4) + 1).xyz - low;
     int axis = (id & 7) >> 1;
     vec3 sideways = axis == 0 ? vec3(0.0, size.y, 0.0) : axis == 1 ? vec3(0.0, 0.0, size.z) : vec3(size.x, 0.0, 0.0);
     vec3 along = axis == 0 ? vec3(0.0, 0.0, size.z) : axis == 1 ? vec3(size.x, 0.0, 0.0) : vec3(0.0, size.y, 0.0);

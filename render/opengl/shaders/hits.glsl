@@ -51,10 +51,11 @@ void meetSlab(REAL origin, REAL direction, float low, float high, int axis, inou
 
 // The boxes of a tile, which are listed front to back, until all later ones are behind what was hit.
 void addBoxes(inout HITS hits, REAL x, REAL y) {
-    int end = texelFetch(boxBegins, tile + 1).x;
-    for (int k = texelFetch(boxBegins, tile).x; k < end; ++k) {
-        vec4 low = texelFetch(tileBoxes, 2 * k);
-        vec4 high = texelFetch(tileBoxes, 2 * k + 1);
+    int end = numberOf(kBoxBegins, tile + 1);
+    int first = placeOf(kTileBoxes);
+    for (int k = numberOf(kBoxBegins, tile); k < end; ++k) {
+        vec4 low = texelFetch(listedTexels, first + 2 * k);
+        vec4 high = texelFetch(listedTexels, first + 2 * k + 1);
         if (high.w > largest(hits.depth)) break;
         REAL entry = REAL(-kFarDepth);
         REAL exit = REAL(kFarDepth);
@@ -95,14 +96,15 @@ HITS flatHits(REAL x, REAL y) {
 #if defined(SPHERES) && defined(SAMPLE_HITS)
 // The spheres of a tile, which are listed front to back, until all later ones are behind what was hit.
 void addSpheres(inout HITS hits, REAL x, REAL y) {
-    int k = texelFetch(sphereBegins, tile).x;
-    int end = texelFetch(sphereBegins, tile + 1).x;
+    int k = numberOf(kSphereBegins, tile);
+    int end = numberOf(kSphereBegins, tile + 1);
+    int first = placeOf(kTileSpheres);
 #ifdef PERSPECTIVE
     REAL inverseSquare = 1.0 / (x * x + y * y + 1.0);
 #endif
     INTEGER entry = INTEGER(-1);  // of the list, that is hit
     for (; k < end; ++k) {
-        vec4 sphere = texelFetch(tileSpheres, k);
+        vec4 sphere = texelFetch(listedTexels, first + k);
         if (sphere.z - sphere.w > largest(hits.depth)) break;
         // The intersection is measured from the point of the ray that is closest to the center, so that nothing
         // cancels, however far away the sphere is.
@@ -127,10 +129,10 @@ void addSpheres(inout HITS hits, REAL x, REAL y) {
         entry = choose(isNearer, INTEGER(k), entry);
     }
 #if SAMPLES == 1
-    hits.id = entry >= 0 ? texelFetch(sphereItems, max(entry, 0)).x : hits.id;
+    hits.id = entry >= 0 ? numberOf(kSphereItems, max(entry, 0)) : hits.id;
 #else
     for (int s = 0; s < SAMPLES; ++s)
-        hits.id[s] = entry[s] >= 0 ? texelFetch(sphereItems, max(entry[s], 0)).x : hits.id[s];
+        hits.id[s] = entry[s] >= 0 ? numberOf(kSphereItems, max(entry[s], 0)) : hits.id[s];
 #endif
 }
 #endif

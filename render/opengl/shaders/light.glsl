@@ -19,11 +19,12 @@ float sphereCoverage(vec3 at, float pixelWidth, bool isFacing) {
     ivec2 cell = ivec2(floor((at.xy - lightCells.xy) * lightCells.z));
     bool isInGrid = isFacing && all(greaterThanEqual(cell, ivec2(0))) && all(lessThan(cell, ivec2(lightCellCount.xy)));
     int index = isInGrid ? cell.y * int(lightCellCount.x) + cell.x : 0;
-    int k = isInGrid ? texelFetch(casterBegins, index).x : 0;
-    int end = isInGrid ? texelFetch(casterBegins, index + 1).x : 0;
+    int k = isInGrid ? numberOf(kCasterBegins, index) : 0;
+    int end = isInGrid ? numberOf(kCasterBegins, index + 1) : 0;
+    int first = placeOf(kCasters);
     float coverage = 0.0;
     for (; k < end && coverage < 1.0; ++k) {
-        vec4 sphere = texelFetch(casters, k);
+        vec4 sphere = texelFetch(listedTexels, first + k);
         float radius = sphere.w;
         if (sphere.z + radius < at.z) break;
         vec2 off = at.xy - sphere.xy;
@@ -52,7 +53,7 @@ ivec2 boxList(vec2 at, float pixelWidth) {
     vec2 cell = clamp(floor((at - boxCells.xy) * boxCells.z), vec2(0.0), lightCellCount.zw - 1.0);
     bool isNarrow = pixelWidth <= boxCells.w;
     int list = int(isNarrow ? cell.y * lightCellCount.z + cell.x : lightCellCount.z * lightCellCount.w);
-    return ivec2(texelFetch(boxCasterBegins, list).x, texelFetch(boxCasterBegins, list + 1).x);
+    return ivec2(numberOf(kBoxCasterBegins, list), numberOf(kBoxCasterBegins, list + 1));
 }
 #endif
 
@@ -65,16 +66,17 @@ float boxCoverage(vec3 position, vec3 at, float pixelWidth, bool isFacing) {
     ivec2 list = ivec2(0, int(counts.z));
 #endif
     int end = isFacing ? list.y : 0;
+    int begin = placeOf(kBoxCasters);
     vec3 direction = mix(vec3(1.0e-6), toLight.xyz, greaterThan(abs(toLight.xyz), vec3(1.0e-6)));
     vec3 inverse = 1.0 / direction;
     float coverage = 0.0;
     for (int k = list.x; k < end && coverage < 1.0; ++k) {
-        vec4 lowAndTop = texelFetch(boxCasters, 2 * k);
+        vec4 lowAndTop = texelFetch(listedTexels, begin + 2 * k);
 #ifdef BOX_CELLS
         if (lowAndTop.w < at.z) continue;
 #endif
         vec3 low = lowAndTop.xyz;
-        vec4 highAndSign = texelFetch(boxCasters, 2 * k + 1);
+        vec4 highAndSign = texelFetch(listedTexels, begin + 2 * k + 1);
         vec3 high = highAndSign.xyz;
         vec3 first = (low - position) * inverse;
         vec3 second = (high - position) * inverse;

@@ -22,12 +22,12 @@ float shareInFront(SampleHits hits, float depth) {
 // @return the lines' color times the share of the pixel that they cover, and in w that share
 vec4 lineCoverage(SampleHits hits, vec2 pixel) {
     vec4 over = vec4(0.0);
-    int end = texelFetch(lineBegins, tile + 1).x;
-    for (int k = texelFetch(lineBegins, tile).x; k < end; ++k) {
-        int line = 3 * texelFetch(lineItems, k).x;
-        vec4 ends = texelFetch(lines, line);
-        vec4 depths = texelFetch(lines, line + 1);  // at both ends; z: width of the line
-        vec3 color = texelFetch(lines, line + 2).rgb;
+    int end = numberOf(kLineBegins, tile + 1);
+    for (int k = numberOf(kLineBegins, tile); k < end; ++k) {
+        int line = 3 * numberOf(kLineItems, k);
+        vec4 ends = texelOf(kLines, line);
+        vec4 depths = texelOf(kLines, line + 1);  // at both ends; z: width of the line
+        vec3 color = texelOf(kLines, line + 2).rgb;
         vec2 along = ends.zw - ends.xy;
         float t = clamp(dot(pixel - ends.xy, along) / max(dot(along, along), 1.0e-12), 0.0, 1.0);
         vec2 nearest = ends.xy + t * along;

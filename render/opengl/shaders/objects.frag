@@ -3,23 +3,9 @@
 // the metaballs of the pixel's middle.
 #include "frame.glsl"
 #include "place.glsl"
+#include "lists.glsl"
 
-uniform samplerBuffer spheres;           // in view coordinates: center and radius (m)
 uniform usamplerBuffer sphereAttributes; // color, sky visibility along +x +y +z, along -x -y -z, packed
-uniform isamplerBuffer sphereBegins;     // tile t lists the entries begins[t] ... begins[t + 1] - 1 of the items
-uniform isamplerBuffer sphereItems;
-uniform samplerBuffer tileSpheres;       // the sphere of each entry of the items
-uniform samplerBuffer boxes;             // three texels a box: low corner, high corner, color
-uniform isamplerBuffer boxBegins;
-uniform samplerBuffer tileBoxes;         // two texels for each box of a tile: low corner, index, high corner, front
-uniform samplerBuffer lines;             // three texels a line: both ends (pixels), their depths and the width, color
-uniform isamplerBuffer lineBegins;
-uniform isamplerBuffer lineItems;
-uniform samplerBuffer casters;           // spheres that cast shadows: u, v, height, radius (m)
-uniform isamplerBuffer casterBegins;
-uniform samplerBuffer boxCasters;        // two texels a box: low corner and greatest height in light space, high corner
-                                         // and 1, or -1 if its coverage is subtracted
-uniform isamplerBuffer boxCasterBegins;  // the last list has all boxes
 uniform samplerBuffer groundSky;
 uniform samplerBuffer skyGrid;
 

@@ -1,10 +1,7 @@
 // Tiles that show nothing but the background or nothing but ground.
 #include "frame.glsl"
+#include "lists.glsl"
 
-uniform samplerBuffer casters;
-uniform isamplerBuffer casterBegins;
-uniform samplerBuffer boxCasters;
-uniform isamplerBuffer boxCasterBegins;
 uniform samplerBuffer groundSky;
 
 #include "packing.glsl"

@@ -17,7 +17,7 @@ void setGround(Ray ray, inout Point at) {
 
 #ifdef SPHERES
 void setSphere(Ray ray, int index, inout Point at) {
-    vec4 sphere = texelFetch(spheres, index);
+    vec4 sphere = texelOf(kSpheres, index);
     uvec4 attributes = texelFetch(sphereAttributes, index);
     vec3 center = right.xyz * sphere.x + up.xyz * sphere.y + forward.xyz * sphere.z;
     float inverseSquare = 1.0 / dot(ray.direction, ray.direction);
@@ -45,7 +45,7 @@ void setBox(Ray ray, int id, inout Point at) {
     int box = 3 * (id >> 4);
     int axis = (id & 7) >> 1;
     bool isPlus = (id & 1) == 0;
-    vec3 corner = isPlus ? texelFetch(boxes, box + 1).xyz : texelFetch(boxes, box).xyz;
+    vec3 corner = isPlus ? texelOf(kBoxes, box + 1).xyz : texelOf(kBoxes, box).xyz;
     vec3 axes = vec3(axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0);
     // In a pixel at an outline the ray through the mean of the samples may run parallel to the face.
     float slope = dot(ray.direction, axes);
@@ -53,7 +53,7 @@ void setBox(Ray ray, int id, inout Point at) {
     float reached = clamp(dot(corner - ray.origin, axes) / slope, 0.0, 1.0e30);
     at.depth = (id & 8) == 0 ? reached : 0.0;
     at.normal = isPlus ? axes : -axes;
-    at.albedo = texelFetch(boxes, box + 2).rgb;
+    at.albedo = texelOf(kBoxes, box + 2).rgb;
 }
 #endif
 

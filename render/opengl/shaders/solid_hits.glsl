@@ -32,8 +32,8 @@ void meetSolid(inout SolidHit best, int id, vec3 origin, vec3 direction, vec3 in
 #ifdef VIEW_BOXES
     if (id >= kHitBox) {
         int box = 3 * ((id - kHitBox) >> 4);
-        vec3 a = (texelFetch(boxes, box).xyz - origin) * inverse;
-        vec3 b = (texelFetch(boxes, box + 1).xyz - origin) * inverse;
+        vec3 a = (texelOf(kBoxes, box).xyz - origin) * inverse;
+        vec3 b = (texelOf(kBoxes, box + 1).xyz - origin) * inverse;
         vec3 near = min(a, b);
         vec3 far = max(a, b);
         int axis = near.x >= near.y && near.x >= near.z ? 0 : near.y >= near.z ? 1 : 2;
@@ -60,7 +60,7 @@ void meetSolid(inout SolidHit best, int id, vec3 origin, vec3 direction, vec3 in
     }
 #endif
 #ifdef SPHERES
-    vec4 sphere = texelFetch(spheres, id);
+    vec4 sphere = texelOf(kSpheres, id);
     vec3 toCenter = right.xyz * sphere.x + up.xyz * sphere.y + forward.xyz * sphere.z - origin;
     float closest = dot(toCenter, direction);
     vec3 off = toCenter - closest * direction;
@@ -135,7 +135,7 @@ SolidSurface solidSurface(SolidHit hit, vec3 origin, vec3 direction) {
         int face = (hit.id - kHitBox) & 7;
         vec3 normal = vec3(0.0);
         normal[face >> 1] = (face & 1) == 0 ? 1.0 : -1.0;
-        return SolidSurface(normal, texelFetch(boxes, 3 * ((hit.id - kHitBox) >> 4) + 2).rgb, -1, false);
+        return SolidSurface(normal, texelOf(kBoxes, 3 * ((hit.id - kHitBox) >> 4) + 2).rgb, -1, false);
     }
 #endif
 #ifdef VIEW_MESHES
@@ -143,7 +143,7 @@ SolidSurface solidSurface(SolidHit hit, vec3 origin, vec3 direction) {
 #endif
 #ifdef SPHERES
     if (hit.id >= 0) {
-        vec4 sphere = texelFetch(spheres, hit.id);
+        vec4 sphere = texelOf(kSpheres, hit.id);
         vec3 center = right.xyz * sphere.x + up.xyz * sphere.y + forward.xyz * sphere.z;
         return SolidSurface(normalize(point - center), unpackColor(texelFetch(sphereAttributes, hit.id).x), -1, false);
     }
