@@ -1,4 +1,5 @@
-// From view to image: check, prepare, draw with one of the two renderers, draw the overlay.
+// From view to image: check, prepare, draw with one of the two renderers, draw the overlay. A view with blur is
+// prepared and drawn once for each sample of the pixels, as what that sample sees.
 #include "render/renderer.h"
 
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "render/cpu/cpu_renderer.h"
 #include "render/opengl/opengl_renderer.h"
 #include "render/overlay/draw_overlay.h"
+#include "render/picture/pixel_samples.h"
 #include "render/prepare/view_renderer.h"
 
 namespace render {
@@ -50,14 +52,31 @@ PictureSize checkedSize(PictureSize size) {
 }  // namespace
 
 struct Renderer::Parts {
-    const PreparedView& prepare(const View& view, bool isShaded) {
+    void draw(const View& view, const SampleRange& samples, const LayerSelection& wanted, Layers& layers) {
+        if (!wanted.any()) return;
         requireFinite(view);
-        times = {};
-        settings.isShaded = isShaded;
+        settings.isShaded = wanted.isShaded();
         prepareView(view, settings, prepared, times);
-        return prepared;
+        renderer->draw(prepared, samples, wanted, layers, times);
     }
 
+    /// Draws everything in final quality. What has no color shows the middles of the pixels at the picture's own
+    /// moment, from the middle of the lens.
+    void drawFinal(const View& view, const LayerSelection& wanted, Layers& layers) {
+        const SampleRange all{0, view.samplesPerAxis * view.samplesPerAxis, view.samplesPerAxis};
+        const bool hasMiddles = view.samplesPerAxis % 2 == 1;
+        if (!wanted.isShaded() || (hasMiddles && !hasBlur(view))) return draw(view, all, wanted, layers);
+        draw(view, all, {.points = wanted.points, .ids = wanted.ids}, layers);
+        const LayerSelection shaded{.image = wanted.image, .color = wanted.color};
+        if (!hasBlur(view)) return draw(view, all, shaded, layers);
+        View sampled = view;
+        for (int k = 0; k < all.count(); ++k) {
+            setSample(view, k, sampled);
+            draw(sampled, {k, k + 1, all.perAxis, false}, shaded, layers);
+        }
+    }
+
+    Quality quality = Quality::normal;
     PrepareSettings settings;
     std::unique_ptr<ViewRenderer> renderer;
     PreparedView prepared;
@@ -65,11 +84,13 @@ struct Renderer::Parts {
 };
 
 Renderer::Renderer(PictureSize size, Quality quality) : parts_(std::make_unique<Parts>()) {
+    parts_->quality = quality;
     parts_->settings = {checkedSize(size), depthMapTexels(quality), 1};
     parts_->renderer = std::make_unique<CpuRenderer>(size, quality);
 }
 
 Renderer::Renderer(Context& context, PictureSize size, Quality quality) : parts_(std::make_unique<Parts>()) {
+    parts_->quality = quality;
     parts_->settings = {checkedSize(size), depthMapTexels(quality), 2};
     parts_->renderer = makeOpenGlRenderer(context, size, quality);
 }
@@ -87,7 +108,11 @@ void Renderer::draw(const View& view, const LayerSelection& wanted, Layers& laye
     if (wanted.ids && view.particleIds.size() != view.particles.size())
         throw std::logic_error(
             fmt::format("render: {} particles have {} ids", view.particles.size(), view.particleIds.size()));
-    parts_->renderer->draw(parts_->prepare(view, wanted.isShaded()), wanted, layers, parts_->times);
+    parts_->times = {};
+    if (parts_->quality == Quality::final)
+        parts_->drawFinal(view, wanted, layers);
+    else
+        parts_->draw(view, {}, wanted, layers);
     if (wanted.image) drawOverlay(layers.image, view.overlay, view.camera);
 }
 

@@ -30,11 +30,13 @@ class Renderer {
     /// from the last picture may be wrong.
     /// @param old  an image that is no longer needed, whose memory is reused
     /// @throws SystemError  if OpenGL fails, or if the tiles' lists of spheres or lines become too long
-    /// @throws std::logic_error  if the view has numbers that are not finite
+    /// @throws std::logic_error  if the view has numbers that are not finite, or a shutter without a moment for each
+    /// sample
     Image draw(const View& view, Image old = {});
 
     /// Draws layers of a view. Each has the same bytes whichever others are drawn with it. OpenGL draws no
-    /// colors with alpha and no ids.
+    /// colors with alpha and no ids. Shutter and lens blur the layers that have colors; points and ids show the view's
+    /// own moment from the middle of the lens.
     /// @param layers  those of a picture that is no longer needed, whose memory is reused
     /// @throws as draw() above
     /// @throws std::logic_error  if OpenGL is to draw one that it does not, or View::particleIds are missing

@@ -9,20 +9,23 @@
 #include "render/cpu/lighting/mesh_depth_map.h"
 #include "render/cpu/metaballs/metaball_frame.h"
 #include "render/cpu/surface_layers.h"
+#include "render/picture/pixel_samples.h"
 
 namespace render {
 
 namespace {
 
-/// The samples of a pixel, one pass over the picture for each element. In final quality a regular grid of 3 x 3
-/// samples, each clamped, whose mean is taken in linear light.
-std::vector<Sampling> samplingsOf(Quality quality) {
+/// The samples of a pixel, one pass over the picture for each element. In final quality a regular grid of samples, each
+/// clamped, whose mean is taken in linear light.
+std::vector<Sampling> samplingsOf(Quality quality, const SampleRange& samples) {
     if (quality == Quality::draft) return {{.isSparse = true}};
     if (quality == Quality::normal) return {{.samples = 4, .isSparse = true}};
     std::vector<Sampling> samplings;
-    for (int row = -1; row <= 1; ++row)
-        for (int column = -1; column <= 1; ++column)
-            samplings.push_back({.offset = glm::vec2(column, row) / 3.0F, .index = samplings.size(), .count = 9});
+    for (int index = samples.begin; index < samples.end; ++index)
+        samplings.push_back({.offset = pixelSample(index, samples.perAxis).offset,
+                             .index = static_cast<std::size_t>(index),
+                             .count = static_cast<std::size_t>(samples.count()),
+                             .isOfOneView = samples.isOnly});
     return samplings;
 }
 
@@ -43,19 +46,20 @@ CpuRenderer::CpuRenderer(PictureSize size, Quality quality)
       quality_(quality),
       pixels_(pixelCount(padded_)) {}
 
-void CpuRenderer::draw(const PreparedView& view, const LayerSelection& wanted, Layers& layers, DrawTimes& times) {
+void CpuRenderer::draw(const PreparedView& view, const SampleRange& samples, const LayerSelection& wanted,
+                       Layers& layers, DrawTimes& times) {
     shading_ = shadingOf(*view.view);
     blackShading_ = shading_;
     blackShading_.background = {};
     placeMeshes(view, times);
     // What the middles of the pixels show needs no other rays.
     const std::vector<Sampling> samplings =
-        wanted.isShaded() ? samplingsOf(quality_) : std::vector{middlesOf(quality_)};
+        wanted.isShaded() ? samplingsOf(quality_, samples) : std::vector{middlesOf(quality_)};
     for (const Sampling& sampling : samplings) {
         cast(view, sampling, times);
         timed(times.color, [&] { drawLayers(view, sampling, wanted, layers); });
     }
-    if (!wanted.image) return;
+    if (!wanted.image || samplings.back().index + 1 < samplings.back().count) return;
     timed(times.readBack, [&] { layers.image = packedImage(size_, pixels_, padded_.width, std::move(layers.image)); });
 }
 
@@ -82,15 +86,16 @@ void CpuRenderer::placeMeshes(const PreparedView& view, DrawTimes& times) {
 void CpuRenderer::drawLayers(const PreparedView& view, const Sampling& sampling, const LayerSelection& wanted,
                              Layers& layers) {
     const PictureJob job = pictureJob(view, sampling, shading_);
-    if (wanted.image) colorPixels(job, {sampling.index, sampling.count, sums_}, background_, pixels_);
+    if (wanted.image)
+        colorPixels(job, {sampling.index, sampling.count, sampling.isOfOneView, sums_}, background_, pixels_);
     if (wanted.color)
         colorLayer(pictureJob(view, sampling, blackShading_), sampling.index, sampling.count, layers.color);
     const bool isOfMiddles = sampling.offset == glm::vec2(0.0F);
     if (isOfMiddles && (wanted.points || wanted.ids)) findSurfaceLayers(job, view, wanted, layers);
 }
 
-// In final quality the rays of a sampling are moved by a third of a pixel. The texels of the depth map are moved by a
-// third of a texel with them, so that the mean of the samplings shows the mean of nine depth maps.
+// In final quality the rays of a sampling are moved by a part of a pixel. The texels of the depth map are moved by the
+// same part of a texel with them, so that the mean of the samplings shows the mean of as many depth maps.
 void CpuRenderer::castDepthMap(const PreparedView& view, glm::vec2 offset) {
     if (view.depthMap.empty()) {
         depthMap_ = {};

@@ -1,6 +1,6 @@
 // The renderer on the CPU's vector units, which gives the same bits on every machine. Its stages: cast the metaballs,
-// find what the samples of each pixel hit, color it. In final quality metaballs are cast and pixels colored nine times,
-// with the rays moved within the pixel.
+// find what the samples of each pixel hit, color it. In final quality metaballs are cast and pixels colored nine times
+// or more, with the rays moved within the pixel.
 #pragma once
 
 #include <optional>
@@ -18,11 +18,12 @@ namespace render {
 
 /// Which rays are taken through each pixel: one of `count` samplings whose mean is the picture.
 struct Sampling {
-    int samples = 1;         ///< samples per pixel, 1 or 4
-    glm::vec2 offset{0.0F};  ///< offset of a single sample from the pixel's middle, pixels
-    bool isSparse = false;   ///< whether smooth metaballs are cast at every second pixel only and interpolated between
-    std::size_t index = 0;   ///< number of earlier samplings of the same picture
-    std::size_t count = 1;   ///< number of samplings
+    int samples = 1;          ///< samples per pixel, 1 or 4
+    glm::vec2 offset{0.0F};   ///< offset of a single sample from the pixel's middle, pixels
+    bool isSparse = false;    ///< whether smooth metaballs are cast at every second pixel only and interpolated between
+    std::size_t index = 0;    ///< number of earlier samplings of the same picture
+    std::size_t count = 1;    ///< number of samplings
+    bool isOfOneView = true;  ///< whether all samplings of the picture show the same view
 };
 
 /// What the tiles and the depth map of meshes depend on.
@@ -40,7 +41,8 @@ class CpuRenderer final : public ViewRenderer {
  public:
     CpuRenderer(PictureSize size, Quality quality);
 
-    void draw(const PreparedView& view, const LayerSelection& wanted, Layers& layers, DrawTimes& times) override;
+    void draw(const PreparedView& view, const SampleRange& samples, const LayerSelection& wanted, Layers& layers,
+              DrawTimes& times) override;
 
  private:
     void drawLayers(const PreparedView& view, const Sampling& sampling, const LayerSelection& wanted, Layers& layers);

@@ -320,6 +320,14 @@ bool BackgroundCache::keeps(std::size_t tile, TileKind kind) {
     return std::exchange(kinds_[tile], kind) == kind && isUnoccluded(kind);
 }
 
+void BackgroundCache::note(std::size_t tile, TileKind kind, bool isFirst) {
+    kinds_[tile] = isFirst || kinds_[tile] == kind ? kind : TileKind::mixed;
+}
+
+bool BackgroundCache::isSteady(std::size_t tile) const {
+    return isUnoccluded(kinds_[tile]);
+}
+
 void colorPixels(const PictureJob& job, const PictureMean& mean, BackgroundCache& cache, std::span<PixelColor> pixels) {
     const CellLists& tiles = *job.contents.geometry.tiles;
     const std::size_t tileCount = tiles.cellCount();
@@ -327,8 +335,15 @@ void colorPixels(const PictureJob& job, const PictureMean& mean, BackgroundCache
     cache.begin(job.geometry, job.shading, tileCount);
     tbb::parallel_for(std::size_t{0}, tileCount, [&](std::size_t tile) {
         const TileKind kind = job.contents.kindOf(tile);
-        if (cache.keeps(tile, kind)) return;
         const TileTarget target = targetOf(tiles, tile, pixels);
+        if (!mean.isOfOneView) {
+            cache.note(tile, kind, mean.index == 0);
+            colorTile(job, tile, mean, target);
+            if (mean.index + 1 == mean.count && cache.isSteady(tile))
+                colorBackgroundTile(job.geometry, job.shading, kind == TileKind::openGround, target);
+            return;
+        }
+        if (cache.keeps(tile, kind)) return;
         if (isUnoccluded(kind))
             colorBackgroundTile(job.geometry, job.shading, kind == TileKind::openGround, target);
         else

@@ -29,6 +29,7 @@ struct PictureJob {
 struct PictureMean {
     std::size_t index = 0;           ///< number of earlier samplings of the same picture
     std::size_t count = 1;           ///< number of samplings
+    bool isOfOneView = true;         ///< whether all samplings show the same view
     std::vector<PointColors>& sums;  ///< per tile: sums of the colors so far; not used if count is 1
 };
 
@@ -43,6 +44,13 @@ class BackgroundCache {
 
     /// Notes what a tile shows in this picture. @return whether the pixels of the tile show it already
     bool keeps(std::size_t tile, TileKind kind);
+
+    /// Notes what a tile shows in one of the samplings of a picture, which show different views.
+    /// @param isFirst  whether it is the first sampling of the picture
+    void note(std::size_t tile, TileKind kind, bool isFirst);
+
+    /// Whether a tile showed the same in all samplings so far, and that is nothing but background or open ground.
+    bool isSteady(std::size_t tile) const;
 
  private:
     struct Key {
@@ -60,7 +68,8 @@ class BackgroundCache {
 };
 
 /// Colors the pixels of a picture. If the picture is a mean of several samplings, their colors are added up, and the
-/// last sampling writes the pixels.
+/// last sampling writes the pixels. A tile that shows nothing but background or open ground in all samplings, before a
+/// camera that does not move, has the pixels that it has in a picture of one view.
 /// @param pixels  pixels of all tiles, row by row, as the last picture with this cache left them
 void colorPixels(const PictureJob& job, const PictureMean& mean, BackgroundCache& cache, std::span<PixelColor> pixels);
 

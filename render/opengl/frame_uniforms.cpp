@@ -26,7 +26,7 @@ void setLook(const View& view, FrameUniforms& to) {
     const Surface& surface = view.surface;
     to.lightColor = {view.light.color, view.exposure};
     to.sky = {view.ambient.sky, view.ambient.occlusion};
-    to.skyBelow = {view.ambient.ground, 0.0F};
+    to.skyBelow = {view.ambient.ground, view.camera.shift.x};
     to.surface = {surface.specular, surface.reflection, surface.metal, surface.roughness};
     to.body = {surface.translucency, surface.absorption, surface.glow, highlightNorm(surface.glossExponent)};
     to.surroundingsTop = {view.surroundings.top, view.light.rim.r};
@@ -63,7 +63,7 @@ FrameUniforms frameUniforms(const PreparedView& prepared, glm::vec2 offset) {
     setLook(view, to);
     to.toLight = {prepared.light.toLight, view.light.softness};
     to.lightU = {prepared.light.u, prepared.meanRadius};
-    to.lightV = {prepared.light.v, 0.0F};
+    to.lightV = {prepared.light.v, view.camera.shift.y};
     const LightGrid& casters = prepared.lightGrid;
     to.lightCells = {casters.origin, 1.0F / casters.cellSize, 0.0F};
     const LightBoxGrid& boxes = prepared.lightBoxes;

@@ -57,6 +57,7 @@ Defines lookDefines(const PreparedView& prepared, TileClass kind) {
     const View& view = *prepared.view;
     Defines defines;
     addIf(prepared.frame.perspective, "PERSPECTIVE", defines);
+    addIf(prepared.frame.middle != glm::vec2(0.0F), "SHIFTED", defines);
     if (kind == TileClass::background) return defines;
     addIf(view.ground.has_value(), "GROUND", defines);
     addIf(view.exposure > 0.0F, "EXPOSURE", defines);

@@ -98,6 +98,7 @@ void MeshPasses::draw(const PreparedView& view, std::span<const glm::vec2> offse
         samples_.emplace_back(gl_, size_, std::initializer_list<GLenum>{GL_RGBA32UI, GL_DEPTH_COMPONENT32F});
     Defines defines;
     if (view.frame.perspective) defines.emplace_back("PERSPECTIVE");
+    if (view.frame.middle != glm::vec2(0.0F)) defines.emplace_back("SHIFTED");
     const ShaderProgram& program = programs_.get("mesh.vert", "mesh.frag", defines);
     program.use(std::array{TextureBinding{"meshCorners", GL_TEXTURE_BUFFER, corners_.texture()},
                            TextureBinding{"meshNormals", GL_TEXTURE_BUFFER, normals_.texture()},

@@ -20,10 +20,11 @@ class OpenGlRenderer final : public ViewRenderer {
     OpenGlRenderer(Context& context, PictureSize size, Quality quality);
     ~OpenGlRenderer() override;
 
-    void draw(const PreparedView& view, const LayerSelection& wanted, Layers& layers, DrawTimes& times) override;
+    void draw(const PreparedView& view, const SampleRange& samples, const LayerSelection& wanted, Layers& layers,
+              DrawTimes& times) override;
 
  private:
-    void drawImage(const PreparedView& view, Image& image, DrawTimes& times);
+    void drawImage(const PreparedView& view, const SampleRange& samples, Image& image, DrawTimes& times);
     std::vector<VisiblePoint> visiblePoints(const PreparedView& view);
 
     Context& context_;
@@ -49,17 +50,20 @@ OpenGlRenderer::~OpenGlRenderer() {
     }
 }
 
-void OpenGlRenderer::draw(const PreparedView& view, const LayerSelection& wanted, Layers& layers, DrawTimes& times) {
+void OpenGlRenderer::draw(const PreparedView& view, const SampleRange& samples, const LayerSelection& wanted,
+                          Layers& layers, DrawTimes& times) {
     if (wanted.color || wanted.ids) throw std::logic_error("render: OpenGL draws no colors with alpha and no ids");
     const CurrentContext current(context_);
     timed(times.upload, [&] { passes_->upload(view); });
-    if (wanted.image) drawImage(view, layers.image, times);
+    if (wanted.image) drawImage(view, samples, layers.image, times);
     if (wanted.points) timed(times.color, [&] { layers.points = visiblePoints(view); });
 }
 
-void OpenGlRenderer::drawImage(const PreparedView& view, Image& image, DrawTimes& times) {
-    timed(times.color, [&] { passes_->drawPicture(view, pixels_); });
+void OpenGlRenderer::drawImage(const PreparedView& view, const SampleRange& samples, Image& image, DrawTimes& times) {
+    bool isComplete = false;
+    timed(times.color, [&] { isComplete = passes_->drawPicture(view, samples, pixels_); });
     checkGl(context_.gl(), "drawing a frame");
+    if (!isComplete) return;
     const int rowLength = passes_->size().width;
     timed(times.readBack, [&] { image = packedImage(size_, pixels_, rowLength, std::move(image)); });
 }

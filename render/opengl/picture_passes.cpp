@@ -1,6 +1,6 @@
-// A pass over the picture for each class of tiles. In final quality nine such passes, with the rays moved within the
-// pixel, are added up in linear light. In normal quality the pixels that silhouettes of metaballs cross are drawn
-// again.
+// A pass over the picture for each class of tiles. In final quality nine such passes or more, with the rays moved
+// within the pixel, are added up in linear light. In normal quality the pixels that silhouettes of metaballs cross are
+// drawn again.
 #include "render/opengl/picture_passes.h"
 
 #include <array>
@@ -10,21 +10,13 @@
 
 #include "render/opengl/frame_uniforms.h"
 #include "render/opengl/look_defines.h"
+#include "render/picture/pixel_samples.h"
 
 namespace render {
 
 namespace {
 
 constexpr std::size_t kColor = 0;  // index of the only texture of a target
-
-/// The offsets of the samplings of a picture from the middles of the pixels, pixels.
-std::vector<glm::vec2> samplingsOf(Quality quality) {
-    if (quality != Quality::final) return {glm::vec2(0.0F)};
-    std::vector<glm::vec2> offsets;
-    for (int row = -1; row <= 1; ++row)
-        for (int column = -1; column <= 1; ++column) offsets.push_back(glm::vec2(column, row) / 3.0F);
-    return offsets;
-}
 
 /// Components that tile.vert hands over: the fields of the block Frame and the tile.
 constexpr GLint kVaryingComponents = static_cast<GLint>(sizeof(FrameUniforms) / sizeof(float)) + 4;
@@ -83,21 +75,23 @@ void PicturePasses::uploadMeshes(const PreparedView& view) {
     meshes_->upload(view);
 }
 
-void PicturePasses::drawPicture(const PreparedView& view, std::vector<std::uint32_t>& pixels) {
+bool PicturePasses::drawPicture(const PreparedView& view, const SampleRange& samples,
+                                std::vector<std::uint32_t>& pixels) {
     bindState();
     if (!view.meshes.empty()) {
         uploadFrame(view, glm::vec2(0.0F));
         meshes_->drawDepthMap(view);
     }
     const PassOutput output{"", quality_ == Quality::normal ? 4 : 1, {}};
-    if (quality_ == Quality::final)
-        drawMean(view);
-    else
+    if (quality_ != Quality::final)
         drawSampling(view, glm::vec2(0.0F), picture_, output);
+    else if (!drawMean(view, samples))
+        return false;
     pixels.resize(pixelCount(size_));
     gl_.ReadPixels(0, 0, size_.width, size_.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
-    if (!view.hasMetaballs || output.samples == 1) return;
+    if (!view.hasMetaballs || output.samples == 1) return true;
     for (const TileClass kind : {TileClass::objects, TileClass::flats}) drawSilhouettes(view, kind, output, pixels);
+    return true;
 }
 
 std::vector<glm::vec4> PicturePasses::visiblePoints(const PreparedView& view, PictureSize size) {
@@ -109,18 +103,22 @@ std::vector<glm::vec4> PicturePasses::visiblePoints(const PreparedView& view, Pi
     return pixels;
 }
 
-/// Draws the mean of several samplings, each to the target that the next one reads.
-void PicturePasses::drawMean(const PreparedView& view) {
-    PassOutput output{"FIRST_SUM", 1, {}};
-    std::size_t to = 0;
-    for (const glm::vec2 offset : samplingsOf(quality_)) {
-        drawSampling(view, offset, sums_[to], output);
-        output = {"SUM", 1, {"sums", GL_TEXTURE_2D, sums_[to].texture(kColor)}};
-        to = 1 - to;
+/// Draws the mean of several samplings, each to the target that the next one reads, in this call or in a later one.
+/// @return whether these were the last ones, so that the mean is drawn
+bool PicturePasses::drawMean(const PreparedView& view, const SampleRange& samples) {
+    const auto sumsUpTo = [this](int index) {
+        return TextureBinding{"sums", GL_TEXTURE_2D, sums_[static_cast<std::size_t>(index % 2)].texture(kColor)};
+    };
+    for (int index = samples.begin; index < samples.end; ++index) {
+        const PassOutput first{"FIRST_SUM", 1, {}};
+        drawSampling(view, pixelSample(index, samples.perAxis).offset, sums_[static_cast<std::size_t>(index % 2)],
+                     index == 0 ? first : PassOutput{"SUM", 1, sumsUpTo(index - 1)});
     }
+    if (samples.end < samples.count()) return false;
     picture_.bind();
-    programs_.get("whole.vert", "mean.frag", {}).use(std::array{output.sums});
+    programs_.get("whole.vert", "mean.frag", {}).use(std::array{sumsUpTo(samples.end - 1)});
     gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+    return true;
 }
 
 void PicturePasses::drawSampling(const PreparedView& view, glm::vec2 offset, const Target& target,

@@ -15,6 +15,7 @@
 #include "render/opengl/transparency_buffers.h"
 #include "render/opengl/view_buffers.h"
 #include "render/prepare/prepared_view.h"
+#include "render/prepare/view_renderer.h"
 
 namespace render {
 
@@ -37,8 +38,10 @@ class PicturePasses {
     void upload(const PreparedView& view);
 
     /// Draws the view that was handed over.
+    /// @param samples  that are drawn of it, in final quality
     /// @param pixels  receives the pixels, row by row in whole tiles, red in the lowest byte
-    void drawPicture(const PreparedView& view, std::vector<std::uint32_t>& pixels);
+    /// @return whether that completes the picture; without that there are no pixels yet
+    bool drawPicture(const PreparedView& view, const SampleRange& samples, std::vector<std::uint32_t>& pixels);
 
     /// The normal and, in w, the view depth of the point that each pixel of a picture shows; w is -1 without one.
     /// @param size  of the picture
@@ -46,7 +49,7 @@ class PicturePasses {
 
  private:
     void bindState() const;
-    void drawMean(const PreparedView& view);
+    bool drawMean(const PreparedView& view, const SampleRange& samples);
     void drawSampling(const PreparedView& view, glm::vec2 offset, const Target& target, const PassOutput& output);
     void drawTiles(const PreparedView& view, TileClass kind, const PassOutput& output);
     void drawSilhouettes(const PreparedView& view, TileClass kind, const PassOutput& output,

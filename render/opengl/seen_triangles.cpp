@@ -74,8 +74,10 @@ class Search {
     glm::vec3 onPicture(glm::vec3 position) const {
         const glm::vec3 at = frame_.toView(position + frame_.eye);
         const float w = frame_.perspective ? at.z : 1.0F;
-        return {0.5F * static_cast<float>(frame_.width) * (at.x / (frame_.halfWidth * w) + 1.0F),
-                0.5F * static_cast<float>(frame_.height) * (1.0F - at.y / (frame_.halfHeight * w)), at.z};
+        return {
+            0.5F * static_cast<float>(frame_.width) * ((at.x - frame_.middle.x * w) / (frame_.halfWidth * w) + 1.0F),
+            0.5F * static_cast<float>(frame_.height) * (1.0F - (at.y - frame_.middle.y * w) / (frame_.halfHeight * w)),
+            at.z};
     }
 
     /// The pixels of the picture in which a triangle may be seen.

@@ -25,10 +25,11 @@ int clampedPixel(double at, int count) {
 std::optional<Rect> pixelsOf(const CameraFrame& frame, Interval x, Interval y, double margin) {
     const double perX = 0.5 * frame.width / frame.halfWidth;
     const double perY = 0.5 * frame.height / frame.halfHeight;
-    const Rect rect{clampedPixel(0.5 * frame.width + x.low * perX - margin, frame.width),
-                    clampedPixel(0.5 * frame.height - y.high * perY - margin, frame.height),
-                    clampedPixel(0.5 * frame.width + x.high * perX + margin, frame.width),
-                    clampedPixel(0.5 * frame.height - y.low * perY + margin, frame.height)};
+    const glm::dvec2 middle(frame.middle);
+    const Rect rect{clampedPixel(0.5 * frame.width + (x.low - middle.x) * perX - margin, frame.width),
+                    clampedPixel(0.5 * frame.height - (y.high - middle.y) * perY - margin, frame.height),
+                    clampedPixel(0.5 * frame.width + (x.high - middle.x) * perX + margin, frame.width),
+                    clampedPixel(0.5 * frame.height - (y.low - middle.y) * perY + margin, frame.height)};
     if (rect.x0 >= frame.width || rect.y0 >= frame.height || rect.x1 < 0 || rect.y1 < 0) return std::nullopt;
     return Rect{std::max(rect.x0, 0), std::max(rect.y0, 0), std::min(rect.x1, frame.width - 1),
                 std::min(rect.y1, frame.height - 1)};
@@ -73,6 +74,7 @@ CameraFrame cameraFrame(const Camera& camera, PictureSize size) {
     frame.perspective = camera.projection == Projection::perspective;
     frame.halfHeight = frame.perspective ? std::tan(0.5F * camera.verticalFov) : camera.halfHeight;
     frame.halfWidth = frame.halfHeight * static_cast<float>(size.width) / static_cast<float>(size.height);
+    if (frame.perspective) frame.middle = camera.shift;
     return frame;
 }
 

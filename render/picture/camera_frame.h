@@ -28,7 +28,7 @@ struct Rect {
 
 /// An orthonormal basis. In view coordinates a point is x right + y up + z forward relative to the eye; z is the view
 /// depth. The ray through the point (px, py) of the picture, in pixels from the top left corner, is with
-/// X = (2 px/width - 1) halfWidth and Y = (1 - 2 py/height) halfHeight, in view coordinates:
+/// X = (2 px/width - 1) halfWidth + middle.x and Y = (1 - 2 py/height) halfHeight + middle.y, in view coordinates:
 ///   in perspective, from (0, 0, 0) in the direction (X, Y, 1);
 ///   in parallel projection, from (X, Y, 0) in the direction (0, 0, 1).
 struct CameraFrame {
@@ -38,6 +38,7 @@ struct CameraFrame {
     glm::vec3 forward{0.0F, 0.0F, -1.0F};
     float halfWidth = 1.0F;   ///< half the width of the picture, m; at view depth 1 in perspective
     float halfHeight = 1.0F;  ///< half the height of the picture, m; at view depth 1 in perspective
+    glm::vec2 middle{0.0F};   ///< X and Y of the middle of the picture: Camera::shift
     bool perspective = true;
     int width = 1;  ///< pixels
     int height = 1;

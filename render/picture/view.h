@@ -27,9 +27,9 @@ struct Sphere {
 enum class Style { spheres, metaballs };
 
 /// Quality of a picture. draft takes one sample per pixel. normal antialiases silhouettes. final takes 3 x 3 samples
-/// per pixel and averages them in linear light. In draft and normal quality, rays find the surface of metaballs at
-/// every second pixel of every second row, and between these only where the surface is not smooth; in final quality at
-/// every pixel.
+/// per pixel, or as many as View::samplesPerAxis says, and averages them in linear light; it alone shows what an open
+/// shutter and a wide lens blur. In draft and normal quality, rays find the surface of metaballs at every second pixel
+/// of every second row, and between these only where the surface is not smooth; in final quality at every pixel.
 enum class Quality { draft, normal, final };
 
 enum class Projection { perspective, orthographic };
@@ -41,6 +41,11 @@ struct Camera {
     glm::vec3 up{0.0F, 1.0F, 0.0F};
     float verticalFov = 0.7F;  ///< full vertical angle of view, radians; perspective only
     float halfHeight = 5.0F;   ///< half the height of what the picture shows, m; orthographic only
+    float aperture = 0.0F;     ///< diameter of the lens, m; 0: a pinhole; perspective only
+    float focus = 0.0F;        ///< view depth of the plane in focus, m; 0: the target's
+    /// Where the middle of the picture lies beside the camera's axis, to the right and up, m at view depth 1. Other
+    /// than 0 for a point of a lens beside its middle; perspective only.
+    glm::vec2 shift{0.0F};
 };
 
 struct SphereObstacle {
@@ -120,6 +125,35 @@ struct MetaballField {
     Skin skin = Skin::plain;
 };
 
+/// The moment of a sample of the pixels, from -1/2, when the shutter opens, to 1/2, when it closes. The time in between
+/// is divided into n^2 equal parts for n samples along each axis of a pixel, which are numbered row by row. Sample
+/// n i + j takes the middle of part n ((i + j) mod n) + (i + 2 j) mod n: each n-th of the time occurs once in every row
+/// and once in every column, so that no side of the pixel sees an earlier moment than the other.
+inline double sampleTime(int index, int samplesPerAxis) {
+    const int row = index / samplesPerAxis;
+    const int column = index % samplesPerAxis;
+    const int part = samplesPerAxis * ((row + column) % samplesPerAxis) + (row + 2 * column) % samplesPerAxis;
+    return (part + 0.5) / (samplesPerAxis * samplesPerAxis) - 0.5;
+}
+
+/// Where everything but the particles is at the moment of one sample of the pixels.
+struct Moment {
+    float time = 0.0F;  ///< of the moment, counted from the picture's own, s
+    Camera camera;
+    std::vector<SphereObstacle> sphereObstacles;
+    std::vector<BoxObstacle> boxObstacles;
+    std::vector<MeshObstacle> meshObstacles;
+    std::vector<Edge> edges;
+};
+
+/// The motion that blurs a picture of final quality while the shutter is open. Each sample of the pixels shows the
+/// scene at a moment of its own (pixel_samples.h): particles where they are if they keep their velocities, and
+/// everything else as the moment has it. Colors, light and overlay are those of the view.
+struct Shutter {
+    std::vector<glm::vec3> velocities;  ///< of each particle, m/s; empty: all are at rest
+    std::vector<Moment> moments;        ///< one for each sample, at sampleTime() times the time it is open
+};
+
 /// Everything that a picture shows.
 struct View {
     std::vector<Sphere> particles;
@@ -139,6 +173,8 @@ struct View {
     std::vector<Edge> edges;
     Overlay overlay;                         ///< text and scales, drawn last over the finished picture
     std::vector<std::uint32_t> particleIds;  ///< number of each particle, for Layers::ids; empty if that is not drawn
+    int samplesPerAxis = 3;                  ///< a pixel of final quality has the square of this number of samples
+    std::optional<Shutter> shutter;          ///< absent: all samples show the same moment
 };
 
 struct PictureSize {

@@ -64,8 +64,10 @@ Rectangle particleBounds(const PreparedView& prepared) {
 using Corner = std::optional<glm::vec3>;
 
 Corner cornerAt(const CameraFrame& frame, float height, int x, int y) {
-    const float across = (2.0F * static_cast<float>(x) / static_cast<float>(frame.width) - 1.0F) * frame.halfWidth;
-    const float above = (1.0F - 2.0F * static_cast<float>(y) / static_cast<float>(frame.height)) * frame.halfHeight;
+    const float across =
+        (2.0F * static_cast<float>(x) / static_cast<float>(frame.width) - 1.0F) * frame.halfWidth + frame.middle.x;
+    const float above =
+        (1.0F - 2.0F * static_cast<float>(y) / static_cast<float>(frame.height)) * frame.halfHeight + frame.middle.y;
     const glm::vec3 off = across * frame.right + above * frame.up;
     const glm::vec3 origin = frame.perspective ? glm::vec3(0.0F) : off;
     const glm::vec3 direction = frame.perspective ? frame.forward + off : frame.forward;

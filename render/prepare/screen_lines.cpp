@@ -21,8 +21,9 @@ struct ScreenPoint {
 
 ScreenPoint project(const CameraFrame& frame, glm::dvec3 view) {
     const double scale = frame.perspective ? 1.0 / view.z : 1.0;
-    return {0.5 * frame.width * (1.0 + view.x * scale / frame.halfWidth),
-            0.5 * frame.height * (1.0 - view.y * scale / frame.halfHeight), view.z};
+    const glm::dvec2 middle(frame.middle);
+    return {0.5 * frame.width * (1.0 + (view.x * scale - middle.x) / frame.halfWidth),
+            0.5 * frame.height * (1.0 - (view.y * scale - middle.y) / frame.halfHeight), view.z};
 }
 
 /// Clips the segment from a to b to view depths above zero. @return false if nothing is left

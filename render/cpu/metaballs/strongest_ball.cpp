@@ -8,8 +8,9 @@ namespace render {
 void HitPoints::add(const CameraFrame& frame, std::size_t pixelIndex, glm::vec2 onPicture, float depth) {
     const float scale = frame.perspective ? depth : 1.0F;
     pixel[count] = static_cast<std::uint8_t>(pixelIndex);
-    x[count] = (2.0F * onPicture.x / static_cast<float>(frame.width) - 1.0F) * frame.halfWidth * scale;
-    y[count] = (1.0F - 2.0F * onPicture.y / static_cast<float>(frame.height)) * frame.halfHeight * scale;
+    const glm::vec2 middle = scale * frame.middle;
+    x[count] = (2.0F * onPicture.x / static_cast<float>(frame.width) - 1.0F) * frame.halfWidth * scale + middle.x;
+    y[count] = (1.0F - 2.0F * onPicture.y / static_cast<float>(frame.height)) * frame.halfHeight * scale + middle.y;
     z[count] = depth;
     ++count;
 }

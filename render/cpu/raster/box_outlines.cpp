@@ -28,8 +28,8 @@ float halfPlaneShare(float at, glm::vec2 slope) {
 /// On which side of an edge the ray through a point of the picture passes, by the sign.
 /// @param corner  where the edge begins, relative to the eye, m
 float rayPastEdge(const CameraFrame& frame, glm::vec2 pixel, glm::vec3 corner, glm::vec3 edge) {
-    const float x = (pixel.x * (2.0F / static_cast<float>(frame.width)) - 1.0F) * frame.halfWidth;
-    const float y = (1.0F - pixel.y * (2.0F / static_cast<float>(frame.height))) * frame.halfHeight;
+    const float x = (pixel.x * (2.0F / static_cast<float>(frame.width)) - 1.0F) * frame.halfWidth + frame.middle.x;
+    const float y = (1.0F - pixel.y * (2.0F / static_cast<float>(frame.height))) * frame.halfHeight + frame.middle.y;
     const glm::vec3 off = frame.right * x + frame.up * y;
     if (frame.perspective) return dot(cross(corner, edge), frame.forward + off);
     return dot(cross(corner - off, edge), frame.forward);

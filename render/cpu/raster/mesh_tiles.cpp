@@ -28,8 +28,9 @@ dvec3 toView(const CameraFrame& frame, glm::vec3 point) {
 /// @param view  in view coordinates
 dvec3 onPicture(const CameraFrame& frame, const dvec3& view) {
     const double w = frame.perspective ? view.z : 1.0;
-    return {0.5 * frame.width * (view.x / double(frame.halfWidth) + w),
-            0.5 * frame.height * (w - view.y / double(frame.halfHeight)), w};
+    const glm::dvec2 middle = w * glm::dvec2(frame.middle);
+    return {0.5 * frame.width * ((view.x - middle.x) / double(frame.halfWidth) + w),
+            0.5 * frame.height * (w - (view.y - middle.y) / double(frame.halfHeight)), w};
 }
 
 /// A convex polygon in homogeneous coordinates: a triangle, and what is left of it after four cuts.

@@ -21,8 +21,8 @@ void setVector(TileVec3& values, std::size_t k, glm::vec3 value) {
 /// Direction of the ray through a point of the picture, along the world's axes, unit length.
 glm::vec3 rayDirection(const CameraFrame& frame, float x, float y) {
     if (!frame.perspective) return frame.forward;
-    const float across = (x * (2.0F / static_cast<float>(frame.width)) - 1.0F) * frame.halfWidth;
-    const float upward = (1.0F - y * (2.0F / static_cast<float>(frame.height))) * frame.halfHeight;
+    const float across = (x * (2.0F / static_cast<float>(frame.width)) - 1.0F) * frame.halfWidth + frame.middle.x;
+    const float upward = (1.0F - y * (2.0F / static_cast<float>(frame.height))) * frame.halfHeight + frame.middle.y;
     return normalize(frame.forward + across * frame.right + upward * frame.up);
 }
 
@@ -35,7 +35,8 @@ float backgroundRow(const CameraFrame& frame, glm::vec3 direction, float own) {
     const float upward = dot(direction, frame.up);
     // Directions that the eye does not see, beside it or behind, count as those above or below the picture.
     if (ahead <= 0.0F) return upward > 0.0F ? 0.0F : height;
-    return std::clamp(0.5F * (1.0F - upward / (ahead * frame.halfHeight)), 0.0F, 1.0F) * height;
+    const float above = upward - ahead * frame.middle.y;
+    return std::clamp(0.5F * (1.0F - above / (ahead * frame.halfHeight)), 0.0F, 1.0F) * height;
 }
 
 /// What a transparent mesh mirrors of the light and its surroundings: the terms highlight and mirrored of

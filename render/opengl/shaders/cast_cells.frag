@@ -38,8 +38,8 @@ void main() {
     locate();
     ivec2 cell = place;
     vec2 corner = 2.0 * vec2(cell) + 0.5 + sampleOffset.xy;
-    vec4 x = ((corner.x + vec4(0.0, 1.0, 0.0, 1.0)) * image.x - 1.0) * image.z;
-    vec4 y = (1.0 - (corner.y + vec4(0.0, 0.0, 1.0, 1.0)) * image.y) * image.w;
+    vec4 x = ((corner.x + vec4(0.0, 1.0, 0.0, 1.0)) * image.x - 1.0) * image.z + imageMiddle().x;
+    vec4 y = (1.0 - (corner.y + vec4(0.0, 0.0, 1.0, 1.0)) * image.y) * image.w + imageMiddle().y;
     FourRays rays = fourRays(x, y);
     castRays(tile, max(searchBegin(cell), nearestBall(tile)), kFarDepth, rays);
     refineHits(tile, REFINEMENTS, rays);

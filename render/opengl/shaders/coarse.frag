@@ -17,8 +17,8 @@ layout(location = 3) out uvec4 ray3;
 void main() {
     loadFrame();
     vec2 corner = 4.0 * floor(gl_FragCoord.xy) + 0.5 + sampleOffset.xy;
-    vec4 x = ((corner.x + vec4(0.0, 2.0, 0.0, 2.0)) * image.x - 1.0) * image.z;
-    vec4 y = (1.0 - (corner.y + vec4(0.0, 0.0, 2.0, 2.0)) * image.y) * image.w;
+    vec4 x = ((corner.x + vec4(0.0, 2.0, 0.0, 2.0)) * image.x - 1.0) * image.z + imageMiddle().x;
+    vec4 y = (1.0 - (corner.y + vec4(0.0, 0.0, 2.0, 2.0)) * image.y) * image.w + imageMiddle().y;
     FourRays rays = fourRays(x, y);
     castRays(tile, nearestBall(tile), kFarDepth, rays);
     FourHits hits = surfaceAt(tile, rays);

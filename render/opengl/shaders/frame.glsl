@@ -27,9 +27,18 @@ const int kHitMesh = 1 << 27;       // + index of the sample
 const int kHitBox = 1 << 28;        // + 16 * index of the box + face (0 +x, 1 -x, 2 +y, ..., 5 -z) + 8 inside the box
 const int kHitMetaballs = 1 << 29;  // + index of the sample
 
+// Where the ray through the middle of the picture crosses the plane at view depth 1, m.
+vec2 imageMiddle() {
+#ifdef SHIFTED
+    return vec2(skyBelow.w, lightV.w);
+#else
+    return vec2(0.0);
+#endif
+}
+
 // Where the ray through a point of the picture crosses the plane at view depth 1 (any depth in parallel projection), m.
 vec2 imagePoint(vec2 pixel) {
-    return vec2(pixel.x * image.x - 1.0, 1.0 - pixel.y * image.y) * image.zw;
+    return vec2(pixel.x * image.x - 1.0, 1.0 - pixel.y * image.y) * image.zw + imageMiddle();
 }
 
 struct Ray {

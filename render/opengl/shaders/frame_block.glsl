@@ -5,10 +5,10 @@
 //   forward:             w: height of the ground over the eye (m)
 //   toLight:             w: softness of the light
 //   lightU:              axes of the light's plane; w: mean radius of the particles (m)
-//   lightV:              as lightU, across it
+//   lightV:              as lightU, across it; w: as skyBelow's, along the picture's height
 //   lightColor:          w: exposure
 //   sky:                 ambient light from above; w: strength of ambient occlusion
-//   skyBelow:            ambient light from below
+//   skyBelow:            ambient light from below; w: shift of the picture's middle along its width (m)
 //   surface:             specular, reflection, metal, roughness
 //   body:                translucency, absorption, glow, normalization (g + 8) / 8 of the highlight
 //   surroundingsTop:     colors that mirrors reflect, as the next two; w of the three: color of the rim light

@@ -28,6 +28,10 @@ void main() {
     float w = 1.0;
     float clip = 1.9 * depth / max(depthRange.y, 1.0e-30) - 1.0;
 #endif
-    vec2 at = vec2(dot(position, frame.right.xyz) / frame.image.z + w, w - dot(position, frame.up.xyz) / frame.image.w);
+    vec2 beside = vec2(dot(position, frame.right.xyz), dot(position, frame.up.xyz));
+#ifdef SHIFTED
+    beside -= w * vec2(frame.skyBelow.w, frame.lightV.w);
+#endif
+    vec2 at = vec2(beside.x / frame.image.z + w, w - beside.y / frame.image.w);
     gl_Position = vec4((at / frame.image.xy - target.zw * w) * target.xy - w, clip, w);
 }

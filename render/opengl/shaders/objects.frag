@@ -98,8 +98,8 @@ vec3 colorOfSamples(SampleHits hits, vec2 middle) {
 }
 #else
 SampleHits hitsOf(vec2 middle) {
-    vec4 x = ((middle.x + kOffsetX) * image.x - 1.0) * image.z;
-    vec4 y = (1.0 - (middle.y + kOffsetY) * image.y) * image.w;
+    vec4 x = ((middle.x + kOffsetX) * image.x - 1.0) * image.z + imageMiddle().x;
+    vec4 y = (1.0 - (middle.y + kOffsetY) * image.y) * image.w + imageMiddle().y;
     SampleHits hits = flatHits(x, y);
 #ifdef MESHES
     addMeshes(hits);

@@ -250,7 +250,7 @@ float backgroundRow(vec3 direction, float own) {
     float ahead = dot(direction, forward.xyz);
     float upward = dot(direction, up.xyz);
     if (ahead <= 0.0) return upward > 0.0 ? 0.0 : height;
-    return clamp(0.5 * (1.0 - upward / (ahead * image.w)), 0.0, 1.0) * height;
+    return clamp(0.5 * (1.0 - (upward - ahead * imageMiddle().y) / (ahead * image.w)), 0.0, 1.0) * height;
 #else
     return own;
 #endif

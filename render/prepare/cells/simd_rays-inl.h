@@ -140,8 +140,9 @@ struct ImagePoint {
 
 HWY_INLINE ImagePoint imagePointAt(const CameraFrame& frame, V x, V y) {
     const V one = splat(1.0F);
-    return {(x * splat(2.0F / static_cast<float>(frame.width)) - one) * splat(frame.halfWidth),
-            (one - y * splat(2.0F / static_cast<float>(frame.height))) * splat(frame.halfHeight)};
+    return {
+        (x * splat(2.0F / static_cast<float>(frame.width)) - one) * splat(frame.halfWidth) + splat(frame.middle.x),
+        (one - y * splat(2.0F / static_cast<float>(frame.height))) * splat(frame.halfHeight) + splat(frame.middle.y)};
 }
 
 /// The component of a ray's direction along `forward` is 1, so that the parameter of the ray is the view depth.

@@ -42,8 +42,9 @@ std::array<HalfSpace, 5> pictureVolume(const CameraFrame& frame) {
         if (!frame.perspective) return HalfSpace{-outward, half};
         return HalfSpace{normalize(half * frame.forward - outward), 0.0F};
     };
-    return {HalfSpace{frame.forward, 0.0F}, side(frame.right, width), side(-frame.right, width), side(frame.up, height),
-            side(-frame.up, height)};
+    const glm::vec2 middle = frame.middle;
+    return {HalfSpace{frame.forward, 0.0F}, side(frame.right, width + middle.x), side(-frame.right, width - middle.x),
+            side(frame.up, height + middle.y), side(-frame.up, height - middle.y)};
 }
 
 /// A particle or a sphere obstacle.
