@@ -34,8 +34,21 @@ void checkPath(std::vector<Section>& sections, BuildContext& context) {
         if (previous != nullptr && section.string("projection") != previous->string("projection"))
             report(section, "projection", context, "projection is {}, must stay {} along the path",
                    section.canonical("projection"), previous->canonical("projection"));
+        if (previous != nullptr && section.integer("samples") != previous->integer("samples"))
+            report(section, "samples", context, "samples is {}, must stay {} along the path",
+                   section.canonical("samples"), previous->canonical("samples"));
         previous = &section;
     }
+}
+
+/// Checks the keys of the lens and the samples of a camera.
+void checkLens(Section& section, BuildContext& context) {
+    const int root = samplesPerAxis(section);
+    if (root * root != section.integer("samples"))
+        report(section, "samples", context, "samples is {}, must be a square number, such as {} or {}",
+               section.canonical("samples"), root * root, (root + 1) * (root + 1));
+    if (section.isGiven("focus") && section.has("aperture") && section.number("aperture") == 0.0)
+        context.warnings.add(section.position("focus"), "focus has no effect without an aperture above 0");
 }
 
 CameraPlacement placementFrom(const Section& section) {
@@ -48,7 +61,10 @@ CameraPlacement placementFrom(const Section& section) {
         camera.halfHeight = section.number("half_height");
     } else {
         camera.verticalFov = section.number("fov") * std::numbers::pi / 180.0;
+        camera.aperture = section.number("aperture");
+        if (section.has("focus")) camera.focus = section.number("focus");
     }
+    camera.shutter = section.number("shutter");
     return camera;
 }
 
@@ -138,14 +154,25 @@ render::ColorBar colorBarOf(const Section& section, const Look& look) {
 
 }  // namespace
 
+int samplesPerAxis(const Section& camera) {
+    return static_cast<int>(std::sqrt(static_cast<double>(camera.integer("samples"))));
+}
+
 CameraPath buildCamera(std::vector<Section>& sections, BuildContext& context) {
     CameraPath path;
-    for (Section& section : sections) checkCamera(section, context);
+    for (Section& section : sections) {
+        checkCamera(section, context);
+        if (section.isValid()) checkLens(section, context);
+    }
     if (sections.size() > 1) checkPath(sections, context);
     for (const Section& section : sections) {
         if (!section.isValid()) return {CameraKey{}};
         path.push_back({section.has("time") ? section.number("time") : 0.0, placementFrom(section)});
     }
+    // Where some of the keys give a focus, the others have the target's, so that there is a number between all of them.
+    if (std::ranges::any_of(path, [](const CameraKey& key) { return key.placement.focus > 0.0; }))
+        for (CameraKey& key : path)
+            if (key.placement.focus == 0.0) key.placement.focus = (key.placement.target - key.placement.eye).norm();
     for (const CameraJump& jump : jumpsOf(path))
         context.warnings.add(sections[jump.laterKey].position(),
                              fmt::format("on the way to this key, at {:.3g} s, the camera {}", jump.time,

@@ -69,6 +69,8 @@ std::vector<engine::Emitter> buildEmitters(std::vector<Section>& sections, const
 std::vector<engine::Field> buildFields(std::vector<Section>& sections, BuildContext& context);
 
 CameraPath buildCamera(std::vector<Section>& sections, BuildContext& context);
+/// The square root of a camera's number of samples, rounded down.
+int samplesPerAxis(const Section& camera);
 /// @param camera  gives the ground's default distance of fading a scale
 Look buildLook(Section& section, const CameraPath& camera, BuildContext& context);
 /// Adds the obstacles to the simulation and to the look of the scene, after the bodies.

@@ -163,6 +163,22 @@ BuildContext contextOf(const Sections& sections, const std::string& fileName, Pr
     return context;
 }
 
+std::vector<std::string> textsOf(const ProblemList& list) {
+    std::vector<std::string> texts;
+    for (const Problem& problem : list.sorted()) texts.push_back(formatProblem(problem));
+    return texts;
+}
+
+/// Adds what to say of each key that blurs pictures where no picture is blurred.
+void addBlurs(const std::vector<Section>& cameras, ProblemList& list) {
+    for (const Section& camera : cameras)
+        for (const std::string_view name : {"aperture", "shutter"})
+            if (camera.isGiven(name) && camera.number(name) > 0.0)
+                list.add(camera.position(name),
+                         fmt::format("{} = {} blurs pictures of --quality final alone, these are sharp", name,
+                                     camera.canonical(name)));
+}
+
 std::vector<SourcePosition> positionsOf(const std::vector<Section>& sections) {
     std::vector<SourcePosition> positions;
     for (const Section& section : sections) positions.push_back(section.position());
@@ -181,6 +197,7 @@ void build(Sections& sections, BuildContext& context, Scene& scene) {
     scene.setup.fields = buildFields(sections.fields, context);
     scene.camera = buildCamera(sections.cameras, context);
     scene.look = buildLook(sections.look, scene.camera, context);
+    scene.look.common.samplesPerAxis = samplesPerAxis(sections.cameras.front());
     buildObstacles(sections.obstacles, sections.physics, sections.look, materials, scene, context);
     buildOverlay(sections.overlay, sections.look, scene, context);
     readStill(sections, context, scene);
@@ -224,7 +241,10 @@ Scene readScene(std::string_view text, const std::string& fileName, const Overri
     scene.meshNotes = std::move(context.meshNotes);
     scene.values = effectiveValues(sections);
     addHashes(scene, context.contentHash);
-    for (const Problem& warning : warnings.sorted()) scene.warnings.push_back(formatProblem(warning));
+    scene.warnings = textsOf(warnings);
+    ProblemList blurs(fileName, overrides);
+    addBlurs(sections.cameras, blurs);
+    scene.blurWarnings = textsOf(blurs);
     return scene;
 }
 

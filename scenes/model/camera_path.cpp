@@ -12,13 +12,14 @@ namespace {
 
 using engine::Vec3;
 
-/// The numbers that place a camera: coordinates of eye, target and up, angle of view and half height.
-constexpr std::size_t kNumbers = 11;
+/// The numbers that place a camera: coordinates of eye, target and up, angle of view, half height, lens and shutter.
+constexpr std::size_t kNumbers = 14;
 using Numbers = std::array<double, kNumbers>;
 
 Numbers numbersOf(const CameraPlacement& camera) {
-    return {camera.eye.x(), camera.eye.y(), camera.eye.z(), camera.target.x(),  camera.target.y(), camera.target.z(),
-            camera.up.x(),  camera.up.y(),  camera.up.z(),  camera.verticalFov, camera.halfHeight};
+    return {camera.eye.x(),    camera.eye.y(),  camera.eye.z(), camera.target.x(), camera.target.y(),
+            camera.target.z(), camera.up.x(),   camera.up.y(),  camera.up.z(),     camera.verticalFov,
+            camera.halfHeight, camera.aperture, camera.focus,   camera.shutter};
 }
 
 CameraPlacement placementOf(const Numbers& numbers, render::Projection projection) {
@@ -27,7 +28,10 @@ CameraPlacement placementOf(const Numbers& numbers, render::Projection projectio
             .target = Vec3(numbers[3], numbers[4], numbers[5]),
             .up = Vec3(numbers[6], numbers[7], numbers[8]),
             .verticalFov = numbers[9],
-            .halfHeight = numbers[10]};
+            .halfHeight = numbers[10],
+            .aperture = numbers[11],
+            .focus = numbers[12],
+            .shutter = numbers[13]};
 }
 
 /// Whether a direction turns by 60 degrees or more between two moments of a path that are close together.

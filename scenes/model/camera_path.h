@@ -18,10 +18,10 @@ struct CameraKey {
 using CameraPath = std::vector<CameraKey>;
 
 /// Where the camera is at a time in s. Before the first key of the path it is placed as at that key, after the last as
-/// at the last. Between two keys every coordinate of eye, target and up, the angle of view and the half height follow a
-/// monotone cubic: values and first derivatives are continuous, no value leaves the interval between its values at the
-/// two keys, and the derivatives vanish at the first and the last key.
-/// Fritsch and Butland 1984, A Method for Constructing Local Monotone Piecewise Cubic Interpolants.
+/// at the last. Between two keys every coordinate of eye, target and up, the angle of view, the half height, and the
+/// numbers of lens and shutter follow a monotone cubic: values and first derivatives are continuous, no value leaves
+/// the interval between its values at the two keys, and the derivatives vanish at the first and the last key. Fritsch
+/// and Butland 1984, A Method for Constructing Local Monotone Piecewise Cubic Interpolants.
 CameraPlacement cameraAt(const CameraPath& path, double time);
 
 /// Half the height of what the picture shows at the distance of the camera's target, m.

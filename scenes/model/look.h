@@ -20,6 +20,9 @@ struct CameraPlacement {
     engine::Vec3 up = {0.0, 1.0, 0.0};
     double verticalFov = 0.7;  ///< full vertical angle of view, radians; perspective only
     double halfHeight = 5.0;   ///< half the height of the picture, m; orthographic only
+    double aperture = 0.0;     ///< diameter of the lens, m; perspective only
+    double focus = 0.0;        ///< distance of the plane in focus, m; 0: that of the target
+    double shutter = 0.0;      ///< share of the time between two frames for which the shutter is open
 };
 
 /// The quantity that a particle's color shows.

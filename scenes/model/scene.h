@@ -66,6 +66,8 @@ struct Scene {
     std::vector<EffectiveValue> values;
     SourceTables tables;
     std::vector<std::string> warnings;  ///< messages on what is valid but may not be meant
+    /// Messages for pictures of less than final quality, on what would blur them; empty where nothing does.
+    std::vector<std::string> blurWarnings;
 };
 
 /// Number of frames of the animation: round(duration * fps), at least 1.

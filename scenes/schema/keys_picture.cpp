@@ -131,6 +131,24 @@ std::vector<Key> cameraKeys() {
             .within({1.0, 170.0})
             .onlyFor({"perspective"}),
         length("half_height", "half the height of the picture").defaultsTo("5").onlyFor({"orthographic"}),
+        key("aperture", Type::number, "m",
+            "diameter of the lens, which blurs what is out of focus in pictures of --quality final; 0: a pinhole")
+            .defaultsTo("0")
+            .within({.low = 0.0, .high = engine::kWorldLimit})
+            .onlyFor({"perspective"}),
+        length("focus", "distance from the eye, along its axis, of the plane that is in focus")
+            .derivedAs("the distance of the target")
+            .onlyFor({"perspective"}),
+        key("shutter", Type::number, "",
+            "share of the time between two frames for which the shutter is open, around the frame's own moment, which "
+            "blurs what moves in pictures of --quality final; 0: none of it")
+            .defaultsTo("0")
+            .within(kUnitInterval),
+        key("samples", Type::integer, "",
+            "samples of each pixel in pictures of --quality final, a square number; with aperture or shutter each is a "
+            "whole picture, and strong blur takes more of them")
+            .defaultsTo("9")
+            .within({1.0, 1024.0}),
     };
 }
 

@@ -1,12 +1,21 @@
 // Everything that all frames of an animation have in common has been built together with the scene. What is added here
 // changes from frame to frame: the camera, the particles with their colors, the time stamp, and the point that all
 // positions are relative to.
+//
+// The shutter opens half of its time before a frame's own moment and closes as long after it, as in Blender and most
+// other renderers, so that a blurred thing lies around the place where a sharp picture of the same frame has it, and a
+// film that loops still does. Obstacles and cameras are where their motions take them at each moment, before the first
+// frame too. Of the particles the state of the frame alone is known: each keeps its velocity while the shutter is open,
+// which is wrong by half its acceleration times the square of half that time: 0.3 mm in free fall at 30 frames a second
+// with a shutter of 0.5. One that meets a wall meanwhile is drawn a little way into it. Those that are born or removed
+// while the shutter is open are drawn at all of its moments or at none, as in the sharp picture.
 #include "scenes/view/frame_view.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "scenes/model/to_float.h"
 #include "scenes/text/color.h"
@@ -44,7 +53,9 @@ render::Camera cameraOf(const CameraPlacement& placement, const Vec3& origin) {
             .target = toFloat(placement.target - origin),
             .up = toFloat(placement.up),
             .verticalFov = toFloat(placement.verticalFov),
-            .halfHeight = toFloat(placement.halfHeight)};
+            .halfHeight = toFloat(placement.halfHeight),
+            .aperture = toFloat(placement.aperture),
+            .focus = toFloat(placement.focus)};
 }
 
 /// Where the obstacles of a scene are at a time, relative to the origin of a view.
@@ -75,27 +86,57 @@ glm::mat3 matrixInFloat(const engine::Matrix3& matrix) {
 }
 
 /// Adds what is drawn of the obstacles.
-void addObstacles(const Look& look, const ObstaclePlaces& places, render::View& view) {
+/// @param picture  a view, or one of its moments
+template <class Picture>
+void addObstacles(const Look& look, const ObstaclePlaces& places, Picture& picture) {
     for (const DrawnSphere& sphere : look.spheres)
         if (places.isThere(sphere.obstacle))
-            view.sphereObstacles.push_back(
+            picture.sphereObstacles.push_back(
                 {places.inView(places.pose(sphere.obstacle), sphere.center), toFloat(sphere.radius), sphere.color});
     for (const DrawnBox& box : look.boxes)
         if (places.isThere(box.obstacle))
-            view.boxObstacles.push_back(
+            picture.boxObstacles.push_back(
                 {toFloat(Vec3(box.minimum - places.origin)), toFloat(Vec3(box.maximum - places.origin)), box.color});
     for (const DrawnSolid& solid : look.solids) {
         if (!places.isThere(solid.obstacle)) continue;
         const engine::Pose pose = places.pose(solid.obstacle);
-        view.meshObstacles.push_back(
+        picture.meshObstacles.push_back(
             {solid.mesh, matrixInFloat(pose.rotation), places.inView(pose, solid.origin), solid.color, solid.medium});
     }
     for (const DrawnEdges& edges : look.edges) {
         if (!places.isThere(edges.obstacle)) continue;
         const engine::Pose pose = places.pose(edges.obstacle);
         for (const auto& [from, to] : edges.lines)
-            view.edges.push_back({places.inView(pose, from), places.inView(pose, to), edges.color, look.edgeWidth});
+            picture.edges.push_back({places.inView(pose, from), places.inView(pose, to), edges.color, look.edgeWidth});
     }
+}
+
+/// Whether anything of a scene moves at a moment of its simulation.
+bool isInMotion(const Scene& scene, const engine::Particles& particles) {
+    const auto isMoving = [](const Vec3& velocity) { return velocity != Vec3::Zero(); };
+    return scene.camera.size() > 1 || engine::areInMotion(scene.setup.obstacles) ||
+           std::ranges::any_of(particles.velocity, isMoving);
+}
+
+/// What moves while the shutter is open around a moment of the simulation; nothing where it is not open, and where
+/// nothing moves.
+std::optional<render::Shutter> shutterOf(const Scene& scene, const engine::Simulation& simulation, double open,
+                                         const Vec3& origin) {
+    const engine::Particles& particles = simulation.particles;
+    if (open == 0.0 || !isInMotion(scene, particles)) return std::nullopt;
+    const int perAxis = scene.look.common.samplesPerAxis;
+    render::Shutter shutter;
+    for (int sample = 0; sample < perAxis * perAxis; ++sample) {
+        const double after = open * render::sampleTime(sample, perAxis);
+        const double time = simulation.time + after;
+        render::Moment& moment = shutter.moments.emplace_back();
+        moment.time = toFloat(after);
+        moment.camera = cameraOf(cameraAt(scene.camera, time), origin);
+        addObstacles(scene.look, {scene.setup.obstacles, time, origin}, moment);
+    }
+    shutter.velocities.reserve(particles.count());
+    for (const Vec3& velocity : particles.velocity) shutter.velocities.push_back(toFloat(velocity));
+    return shutter;
 }
 
 }  // namespace
@@ -140,6 +181,7 @@ render::View frameView(const Scene& scene, const engine::Simulation& simulation)
     addObstacles(scene.look, {scene.setup.obstacles, time, origin}, view);
     if (scene.look.hasTimeStamp) view.overlay.stamp = timeText(scene, time);
     view.particles = drawnParticles(scene, simulation, origin);
+    view.shutter = shutterOf(scene, simulation, camera.shutter * scene.fps.timeOf(1), origin);
     return view;
 }
 

@@ -20,7 +20,8 @@ void advanceToFrame(const Scene& scene, engine::Simulation& simulation, int fram
 /// A time as a text such as "t = 1.25 s", with as many decimals as distinguish the frames of the scene, at least two.
 std::string timeText(const Scene& scene, double time);
 
-/// The view of the scene at the current time of the simulation: particles, obstacles, camera, lights and overlay. Its
+/// The view of the scene at the current time of the simulation: particles, obstacles, camera, lights and overlay, and
+/// what moves while the shutter is open. Its
 /// positions are relative to a point near the camera's target where this is far away, so that a scene looks the same
 /// there as at the origin; near the origin they are the scene's own.
 render::View frameView(const Scene& scene, const engine::Simulation& simulation);

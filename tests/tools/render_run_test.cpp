@@ -365,6 +365,35 @@ TEST_CASE("--json prints one object a line", "[tools]") {
     CHECK(last["run"]["frames"] == 3);
 }
 
+TEST_CASE("Blur is drawn in final quality, warned of in others, and told by check", "[tools]") {
+    const program::Folder folder;
+    const std::string path = (folder / "fall.toml").string();
+    std::ofstream(path)
+        << "title = \"t\"\nduration = 1\n[material]\nradius = 0.2\n[[body]]\nshape = \"ball\"\n"
+           "radius = 0.5\nvelocity = [5, 0, 0]\n[camera]\nshutter = 0.5\naperture = 0.25\nsamples = 16\n";
+    const auto draw = [&](const std::string& name, const std::string& more) {
+        return run("render " + path + " --size 64x64 --frames 2 --quiet -o " + (folder / name).string() + " " + more);
+    };
+    const auto normal = draw("normal", "");
+    CHECK(normal.code == 0);
+    CHECK(normal.err.find(path + ":10:11: shutter = 0.5 blurs pictures of --quality final alone") != std::string::npos);
+    CHECK(normal.err.find(path + ":11:12: aperture = 0.25 blurs pictures of --quality final alone") !=
+          std::string::npos);
+    CHECK(draw("strict", "--strict").code == 2);
+    const auto final = draw("final", "--quality final --strict");
+    CHECK(final.code == 0);
+    CHECK(final.err == "");
+    CHECK(draw("sharp", "--quality final --set camera.shutter=0 --set camera.aperture=0").code == 0);
+    CHECK(draw("plain", "--set camera.shutter=0 --set camera.aperture=0").err == "");
+    const auto frame = [&](const std::string& name) { return textOf(folder / name / "frame-00002.png"); };
+    CHECK(frame("final") != frame("sharp"));
+    CHECK(frame("normal") == frame("plain"));
+    CHECK(run("check " + path)
+              .out.find("blur       shutter 0.5, aperture 0.25 m; with --quality final only, 16 samples") !=
+          std::string::npos);
+    CHECK(run("check liquid").out.find("blur") == std::string::npos);
+}
+
 TEST_CASE("Every command explains itself with an example", "[tools]") {
     for (const char* command : {"render", "strip", "simulate", "mesh", "figures", "video", "compare", "approve",
                                 "check", "scenes", "schema"}) {

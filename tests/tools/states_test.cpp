@@ -30,8 +30,9 @@ TEST_CASE("Pictures drawn from states are those of a run that simulates, byte fo
     REQUIRE(births["births"] > 20);
     REQUIRE(births["deaths"] > 20);
     const std::string video = (scene.folder / "direct.mp4").string();
-    for (const std::string look : {"--style spheres --set look.color_by=speed", "--style spheres",
-                                   "--style metaballs --quality draft --set look.skin=smooth"}) {
+    for (const std::string look :
+         {"--style spheres --quality final --set camera[0].shutter=0.8", "--style spheres --set look.color_by=speed",
+          "--style spheres", "--style metaballs --quality draft --set look.skin=smooth"}) {
         REQUIRE(run(scene.draw("direct", "--overwrite --video " + video + " " + look)).code == 0);
         const std::string again = (scene.folder / "again.mp4").string();
         REQUIRE(run(scene.fromStates("again", "--overwrite --video " + again + " " + look)).code == 0);

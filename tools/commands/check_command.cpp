@@ -115,6 +115,19 @@ Json bodyJson(const scenes::BodyColumn& body) {
     return json;
 }
 
+/// What blurs the pictures of final quality; null if nothing does.
+Json blurJson(const scenes::Scene& scene) {
+    double shutter = 0.0;
+    double aperture = 0.0;
+    for (const scenes::CameraKey& key : scene.camera) {
+        shutter = std::max(shutter, key.placement.shutter);
+        aperture = std::max(aperture, key.placement.aperture);
+    }
+    if (shutter == 0.0 && aperture == 0.0) return nullptr;
+    const int perAxis = scene.look.common.samplesPerAxis;
+    return {{"shutter", shutter}, {"aperture", aperture}, {"samples", perAxis * perAxis}};
+}
+
 /// What follows from the scene file alone.
 Json sceneJson(const scenes::Scene& scene) {
     const engine::ForceTerms terms = engine::termsFor(forceFieldOf(scene.setup), everyKind(scene));
@@ -142,6 +155,7 @@ Json sceneJson(const scenes::Scene& scene) {
     json["motions"] = motionsJson(scene);
     json["fields"] = Json::array();
     for (const engine::Field& field : scene.setup.fields) json["fields"].push_back(scenes::fieldText(field));
+    json["blur"] = blurJson(scene);
     json["stepper"] = engine::nameOf(scene.setup.stepper);
     json["wanted_error"] =
         scene.setup.stepper == engine::StepperKind::automatic ? Json(scene.setup.error) : Json(nullptr);
@@ -356,6 +370,9 @@ std::string checkText(const Json& json) {
     text += fmt::format("obstacles  {}\n", json["obstacles"].get<std::size_t>());
     text += motionsText(json["motions"]);
     for (const Json& field : json["fields"]) text += fmt::format("field      {}\n", field.get<std::string>());
+    if (const Json& blur = json["blur"]; !blur.is_null())
+        text += fmt::format("blur       shutter {:g}, aperture {:g} m; with --quality final only, {} samples a pixel\n",
+                            blur["shutter"].get<double>(), blur["aperture"].get<double>(), blur["samples"].get<int>());
     text += predictedText(json);
     text += ranksText(json);
     if (const Json& cutOff = json["cut_off"]; !cutOff.is_null())

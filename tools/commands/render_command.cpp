@@ -146,6 +146,7 @@ void render(RenderOptions options) {
     const std::optional<SimulatedStates> states = openStates(options.states, scene, job.frames);
     if (states) job.states = &*states;
     checkOutputs(options, scene, job.states);
+    warnOfSharpness(options.scene, job);
 
     // How the simulation starts is none of the concerns of a run that does not simulate.
     if (!states)

@@ -43,6 +43,7 @@ void checkOutput(const fs::path& path, const scenes::Scene& scene) {
 void drawStrip(const StripOptions& options) {
     const scenes::Scene scene = loadScene(options);
     const DrawJob job = drawJob(scene, options.draw, options.run, runName(options.scene));
+    warnOfSharpness(options.scene, job);
     const fs::path path = options.output.empty() ? defaultOutput(job.title, "-strip.png") : options.output;
     const bool isPiped = path == kStandardStream;
     if (isPiped)

@@ -110,6 +110,13 @@ void warnOfStart(const SceneOptions& options, const scenes::Scene& scene, int th
     for (const std::string& warning : warnings) printWarning(warning);
 }
 
+void warnOfSharpness(const SceneOptions& options, const DrawJob& job) {
+    if (job.quality == render::Quality::final) return;
+    const std::vector<std::string>& warnings = job.scene->blurWarnings;
+    if (options.isStrict) refuse(warnings);
+    for (const std::string& warning : warnings) printWarning(warning);
+}
+
 std::string runName(const SceneOptions& options) {
     if (options.scene == kStandardStream) return "stdin";
     const bool isFile = scenes::resolveScene(options.scene, sceneFolder()) == options.scene;

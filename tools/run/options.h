@@ -96,6 +96,11 @@ void refuse(const std::vector<std::string>& warnings);
 /// @throws ExitStatus as refuse()
 void warnOfStart(const SceneOptions& options, const scenes::Scene& scene, int threads);
 
+/// Prints a warning for each key of the scene that blurs pictures, where the job's quality has no blur. If the options
+/// are strict, throws them as errors.
+/// @throws ExitStatus as refuse()
+void warnOfSharpness(const SceneOptions& options, const DrawJob& job);
+
 /// What a run of the scene is called in the names of its files: a built-in scene as it was given, such as "hard/honey",
 /// a scene file by its name without folder and extension, and standard input "stdin".
 /// @throws scenes::InputError if there is no such scene
