@@ -13,7 +13,9 @@
 
 #include "render/output/png.h"
 #include "render/output/video.h"
+#include "render/picture/pixel_samples.h"
 #include "studies/common/timing.h"
+#include "studies/oracle/blur.h"
 #include "studies/pictures/dam_break_view.h"
 #include "studies/pictures/renderers.h"
 
@@ -113,6 +115,15 @@ std::vector<ExactWindow> exactWindows(const PictureSettings& settings, const ren
                                 (2 * row + 1) * size.height / (2 * settings.windowRows) - settings.windowSide / 2,
                                 settings.windowSide, settings.windowSide},
                                {}});
+    if (render::hasBlur(view)) {
+        const oracle::BlurredScene scene(view);
+        // The moments are many samples already.
+        const int perAxis = view.shutter ? (settings.samplesPerAxis + 1) / 2 : 2 * settings.samplesPerAxis;
+        tbb::parallel_for(std::size_t{0}, windows.size(), [&](std::size_t k) {
+            windows[k].picture = oracle::drawBlurred(scene, size, windows[k].window, perAxis);
+        });
+        return windows;
+    }
     const oracle::Scene scene(view);
     tbb::parallel_for(std::size_t{0}, windows.size(), [&](std::size_t k) {
         windows[k].picture = oracle::drawWindow(scene, size, windows[k].window, settings.samplesPerAxis);
@@ -172,10 +183,32 @@ std::vector<PictureRow> measurePicture(const PictureSettings& settings, render::
     return rows;
 }
 
+/// Opens the shutter for so long that particles that fly as fast as any move by three radii, around the middle of the
+/// tank.
+void openShutter(render::View& view) {
+    const float radius = view.particles.front().radius;
+    view.shutter.emplace();
+    for (const render::Sphere& particle : view.particles) {
+        const glm::vec3 off = particle.center - view.camera.target;
+        view.shutter->velocities.push_back(3.0F * radius * glm::vec3(-off.y, off.x, 0.0F) / (1.0F + length(off)));
+    }
+    for (int k = 0; k < view.samplesPerAxis * view.samplesPerAxis; ++k)
+        view.shutter->moments.push_back({static_cast<float>(render::sampleTime(k, view.samplesPerAxis)), view.camera,
+                                         view.sphereObstacles, view.boxObstacles, view.meshObstacles, view.edges});
+}
+
+/// Opens the lens so wide that what is twice as far away as the target is blurred by a hundredth of the picture's
+/// height.
+void openLens(render::View& view) {
+    const float height = 2.0F * std::tan(0.5F * view.camera.verticalFov);
+    view.camera.aperture = 0.02F * height * distance(view.camera.eye, view.camera.target);
+}
+
 /// A look that the table of looks has.
 struct NamedLook {
     const char* name = "";
     void (*add)(render::View&) = nullptr;  ///< changes the look of the dam break
+    render::Quality quality = render::Quality::normal;
 };
 
 constexpr NamedLook kLooks[] = {
@@ -183,24 +216,41 @@ constexpr NamedLook kLooks[] = {
     {"anisotropic skin", [](render::View& view) { view.field.skin = render::Skin::anisotropic; }},
     {"glow", [](render::View& view) { view.surface.glow = 0.5F; }},
     {"rim light", [](render::View& view) { view.light.rim = glm::vec3(0.6F); }},
-    {"transparent", [](render::View& view) {
+    {"transparent",
+     [](render::View& view) {
          view.surface.translucency = 0.0F;
          view.surface.absorption = 0.0F;
          view.surface.medium = {0.9F, 1.33F, 2.0F};
-     }}};
+     }},
+    {"final quality", [](render::View&) {}, render::Quality::final},
+    {"open shutter", openShutter, render::Quality::final},
+    {"wide lens", openLens, render::Quality::final}};
+
+/// The exact picture of a view with a look. It has more moments of an open shutter than the view has samples, so that
+/// the error includes that of too few of them.
+std::vector<ExactWindow> exactWindowsOf(const NamedLook& look, const PictureSettings& settings, render::View view,
+                                        render::PictureSize size) {
+    if (look.quality == render::Quality::final) view.samplesPerAxis = settings.samplesPerAxis + 1;
+    look.add(view);
+    return exactWindows(settings, view, size);
+}
 
 }  // namespace
 
 std::vector<LookRow> measureLooks(const PictureSettings& settings, render::Context* context,
                                   const RowsListener<LookRow>& listener) {
-    const PictureSubject subject{render::Style::metaballs, settings.particles.front(), settings.sizes.front()};
+    PictureSubject subject{render::Style::metaballs, settings.particles.front(), settings.sizes.front()};
     std::vector<LookRow> rows;
-    const std::vector<ComparedRenderer> renderers = makeRenderers(context, subject.size, subject.quality);
+    std::vector<ComparedRenderer> renderers = makeRenderers(context, subject.size, subject.quality);
+    const std::vector<render::View> plain = framesOf(damBreakView(subject.particles, subject.style), settings.frames);
     for (const NamedLook& look : kLooks) {
-        render::View view = damBreakView(subject.particles, subject.style);
-        look.add(view);
-        const std::vector<ExactWindow> exact = exactWindows(settings, view, subject.size);
-        const std::vector<DrawingTimes> times = measureDrawing(renderers, framesOf(view, settings.frames));
+        if (look.quality != subject.quality) renderers = makeRenderers(context, subject.size, look.quality);
+        subject.quality = look.quality;
+        std::vector<render::View> frames = plain;
+        for (render::View& frame : frames) look.add(frame);
+        const render::View& view = frames.front();
+        const std::vector<ExactWindow> exact = exactWindowsOf(look, settings, plain.front(), subject.size);
+        const std::vector<DrawingTimes> times = measureDrawing(renderers, frames);
         for (std::size_t k = 0; k < renderers.size(); ++k) {
             render::Renderer& renderer = *renderers[k].renderer;
             LookRow& row = rows.emplace_back(LookRow{subject, look.name, times[k].draw});

@@ -119,7 +119,7 @@ std::vector<PictureRow> measurePictures(const PictureSettings& settings, render:
                                         const RowsListener<PictureRow>& listener);
 
 /// Measures the dam break as metaballs in normal quality with each of some more looks, after its own, by every
-/// renderer. Particles and size are the first of the settings.
+/// renderer, and in final quality without and with blur. Particles and size are the first of the settings.
 /// @param context  as for measurePictures()
 /// @throws render::SystemError
 std::vector<LookRow> measureLooks(const PictureSettings& settings, render::Context* context,

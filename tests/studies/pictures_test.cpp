@@ -163,6 +163,7 @@ TEST_CASE("Looks are measured after the dam break's own, by every renderer", "[p
     }
     const std::string csv = looksCsv(rows);
     CHECK(csv.find("\ntransparent,metaballs,800,") != std::string::npos);
+    CHECK(csv.find("\nopen shutter,metaballs,800,160,90,final,") != std::string::npos);
     CHECK(std::count(csv.begin(), csv.end(), '\n') == static_cast<std::ptrdiff_t>(1 + rows.size()));
 }
 

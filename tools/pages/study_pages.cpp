@@ -143,9 +143,8 @@ std::string picturesPage(const PictureResults& results, const std::string& comma
         "and normal are means over the right hits on particles.</p>\n";
     body += svgImage("error against milliseconds", results.errorsPlot) + csvHtml(studies::picturesCsv(results.rows));
     body +=
-        "<h2>Looks</h2>\n<p>Metaballs in normal quality, with one more of what a look may have in each; time ratio is "
-        "over "
-        "the look as it is.</p>\n" +
+        "<h2>Looks</h2>\n<p>Metaballs in normal quality, with one more of what a look may have in each, and in final "
+        "quality without and with blur; time ratio is over the look as it is.</p>\n" +
         csvHtml(studies::looksCsv(results.looks));
     body +=
         "<h2>Steadiness</h2>\n<p>A still scene while the camera moves an eighth of a pixel a frame: RMSE in steps of "
