@@ -125,7 +125,7 @@ void recordInMotion(Obstacles& obstacles) {
 
 void place(Obstacles& obstacles, double from, double to) {
     if (obstacles.motions.empty()) return;
-    auto& [ends, swept] = obstacles.kept;
+    auto& [ends, swept, inMotion] = obstacles.kept;
     if (ends[0].time == from && ends[1].time == to) return;
     // The end of a step mostly is the start of the next.
     if (ends[1].time == from) std::swap(ends[0], ends[1]);
@@ -138,6 +138,9 @@ void place(Obstacles& obstacles, double from, double to) {
     }
     swept.clear();
     for (std::size_t k = 0; k < obstacles.motions.size(); ++k) swept.push_back(sweptBounds(obstacles, k));
+    inMotion.clear();
+    for (std::uint32_t k = 0; k < obstacles.motions.size(); ++k)
+        if (!obstacles.motions[k].isAtRest()) inMotion.push_back(k);
 }
 
 Vec3 pivotAt(const Obstacles& obstacles, std::size_t obstacle, double time) {

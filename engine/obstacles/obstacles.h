@@ -128,6 +128,7 @@ struct PlacesInStep {
     std::array<PosesAt, 2> ends;  ///< at the start and at the end of the step
     /// What contains each obstacle throughout the step, m; without bounds for those that have no end or do not move.
     std::vector<BoundingBox> swept;
+    std::vector<std::uint32_t> inMotion;  ///< those that move or are taken away, of which there mostly are few
 
     /// Whether a time (s) is in the step.
     bool include(double time) const { return time >= ends[0].time && time <= ends[1].time; }

@@ -93,10 +93,15 @@ double speedAmong(const Obstacles& obstacles, const Probe& particle) {
     const double own = std::sqrt(squaredLength(particle.velocity));
     if (obstacles.motions.empty()) return own;
     double fastest = 0.0;
-    for (std::size_t k = 0; k < obstacles.motions.size(); ++k) {
-        if (obstacles.motions[k].isAtRest() || particle.time >= obstacles.motions[k].until) continue;
-        const Vec3 velocity = velocityOf(obstacles, k, particle.time, particle.position);
-        fastest = std::max(fastest, squaredLength(velocity));
+    const auto include = [&](std::size_t k) {
+        if (particle.time >= obstacles.motions[k].until) return;
+        fastest = std::max(fastest, squaredLength(velocityOf(obstacles, k, particle.time, particle.position)));
+    };
+    if (obstacles.kept.swept.empty()) {
+        for (std::size_t k = 0; k < obstacles.motions.size(); ++k)
+            if (!obstacles.motions[k].isAtRest()) include(k);
+    } else {
+        for (const std::uint32_t k : obstacles.kept.inMotion) include(k);
     }
     return own + std::sqrt(fastest);
 }
