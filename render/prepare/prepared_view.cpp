@@ -8,6 +8,7 @@
 
 #include <tbb/parallel_invoke.h>
 
+#include "render/picture/parallel_loops.h"
 #include "render/prepare/cells/mean_radius.h"
 #include "render/prepare/cells/strays.h"
 #include "render/prepare/ground_tiles.h"
@@ -53,8 +54,9 @@ void prepareTransparency(PreparedView& to) {
 void binForCamera(PreparedView& to) {
     const View& view = *to.view;
     to.viewSpheres.resize(to.drawn.spheres.size());
-    for (std::size_t k = 0; k < to.viewSpheres.size(); ++k)
+    forAll(to.viewSpheres.size(), [&](std::size_t k) {
         to.viewSpheres[k] = {to.frame.toView(to.drawn.spheres[k].center + to.frame.eye), to.drawn.spheres[k].radius};
+    });
     to.spherePixels = pixelBounds(to.frame, to.viewSpheres);
     to.sphereTiles = binToTiles(to.frame, to.viewSpheres, to.spherePixels);
     to.lines = projectEdges(to.frame, view.edges);
