@@ -31,14 +31,24 @@ struct KeyedIndex {
 
 // A radix sort in three passes over digits of 11 bits, the lowest digit first. Each pass keeps the order of equal
 // digits.
-constexpr int kDigitBits = 11;
+constexpr std::size_t kDigitBits = 11;
 constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
+constexpr std::size_t kPasses = 3;
 
-void sortByDigit(const std::vector<KeyedIndex>& from, std::vector<KeyedIndex>& to, int shift) {
-    std::array<std::uint32_t, kDigits + 1> start{};
-    for (const KeyedIndex& item : from) ++start[((item.key >> shift) & (kDigits - 1)) + 1];
-    for (std::size_t digit = 0; digit < kDigits; ++digit) start[digit + 1] += start[digit];
-    for (const KeyedIndex& item : from) to[start[(item.key >> shift) & (kDigits - 1)]++] = item;
+std::size_t digitOf(std::uint32_t key, std::size_t pass) {
+    return (key >> (pass * kDigitBits)) & (kDigits - 1);
+}
+
+/// How many keys have each digit, for each pass.
+using DigitCounts = std::array<std::array<std::uint32_t, kDigits>, kPasses>;
+
+/// Calls put(place, item) for each item with its place in the order of a pass.
+/// @param counts  of the digits of this pass; overwritten
+template <typename Put>
+void sortByDigit(std::span<const KeyedIndex> items, std::size_t pass, DigitCounts& counts, const Put& put) {
+    std::array<std::uint32_t, kDigits>& next = counts[pass];
+    std::exclusive_scan(next.begin(), next.end(), next.begin(), 0U);
+    for (const KeyedIndex& item : items) put(next[digitOf(item.key, pass)]++, item);
 }
 
 /// Calls visit(cell index) for every cell of an item, row by row.
@@ -54,13 +64,16 @@ void forCells(const CellLists& lists, const Rect& cells, const Visit& visit) {
 
 std::vector<std::uint32_t> indicesByKey(std::span<const float> keys) {
     std::vector<KeyedIndex> items(keys.size());
-    for (std::size_t k = 0; k < keys.size(); ++k) items[k] = {sortable(keys[k]), static_cast<std::uint32_t>(k)};
+    DigitCounts counts{};
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+        items[k] = {sortable(keys[k]), static_cast<std::uint32_t>(k)};
+        for (std::size_t pass = 0; pass < kPasses; ++pass) ++counts[pass][digitOf(items[k].key, pass)];
+    }
     std::vector<KeyedIndex> other(keys.size());
-    sortByDigit(items, other, 0);
-    sortByDigit(other, items, kDigitBits);
-    sortByDigit(items, other, 2 * kDigitBits);
+    sortByDigit(items, 0, counts, [&](std::uint32_t place, const KeyedIndex& item) { other[place] = item; });
+    sortByDigit(other, 1, counts, [&](std::uint32_t place, const KeyedIndex& item) { items[place] = item; });
     std::vector<std::uint32_t> order(keys.size());
-    for (std::size_t k = 0; k < keys.size(); ++k) order[k] = other[k].index;
+    sortByDigit(items, 2, counts, [&](std::uint32_t place, const KeyedIndex& item) { order[place] = item.index; });
     return order;
 }
 
