@@ -47,6 +47,7 @@ void prepareTransparency(PreparedView& to) {
     const View& view = *to.view;
     to.hasTransparency = hasTransparency(to);
     to.ballCells = to.hasTransparency && to.hasMetaballs ? ballCells(view, to.skin, to.frame.eye) : BallCells{};
+    to.fieldCells = fieldCells(to.ballCells, surfaceThreshold(view.field));
     to.solids =
         to.hasTransparency ? solidTree(to.drawn.spheres, view.boxObstacles, to.meshes, to.frame.eye) : SolidTree{};
 }

@@ -20,6 +20,7 @@
 #include "render/prepare/lighting/shadow_boxes.h"
 #include "render/prepare/metaball_scene.h"
 #include "render/prepare/rays/ball_cells.h"
+#include "render/prepare/rays/field_cells.h"
 #include "render/prepare/rays/solid_tree.h"
 #include "render/prepare/screen_lines.h"
 #include "render/prepare/skin/skin.h"
@@ -55,6 +56,7 @@ struct PreparedView {
 
     bool hasTransparency = false;  ///< whether rays are followed through transparent bodies
     BallCells ballCells;           ///< the metaballs for these rays; only with metaballs and transparency
+    FieldCells fieldCells;         ///< of these balls
     SolidTree solids;              ///< everything else but the ground for these rays; only with transparency
 
     DrawnMeshes meshes;         ///< the mesh obstacles at their places

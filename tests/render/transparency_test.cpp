@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/cpu/transparency/attenuation.h"
+#include "render/cpu/transparency/ball_cache.h"
 #include "render/cpu/transparency/field_crossing.h"
 #include "render/cpu/transparency/light_path.h"
 #include "render/prepare/lighting/portable_exponentials.h"
@@ -90,7 +91,10 @@ TEST_CASE("Rays of any direction cross the surface of metaballs where the oracle
         const oracle::Scene scene(view);
         const auto balls = render::skinOf(view);
         const render::BallCells cells = render::ballCells(view, balls, view.camera.eye);
-        const render::CastField field{cells, render::surfaceThreshold(view.field), 0.08F};
+        const float threshold = render::surfaceThreshold(view.field);
+        const render::FieldCells sides = render::fieldCells(cells, threshold);
+        render::BallCache cache;
+        const render::CastField field{cells, sides, threshold, 0.08F, cache};
         std::mt19937 random(5);
         const auto uniform = [&random] { return 2.0F * static_cast<float>(random()) / 4294967296.0F - 1.0F; };
         int entered = 0;
@@ -99,8 +103,9 @@ TEST_CASE("Rays of any direction cross the surface of metaballs where the oracle
             const glm::vec3 from(3.0F * uniform(), 1.0F + 2.0F * uniform(), 3.0F * uniform());
             const glm::vec3 direction = normalize(glm::vec3(1.2F * uniform(), 0.9F, 1.2F * uniform()) - from);
             if (oracle::fieldAt(view, oracle::dvec3(from)) > 0.0) continue;
-            render::SurfacePoint found;
-            render::findCrossing(field, {from - view.camera.eye, direction, 0.0F, render::kNoCrossing}, false, found);
+            const glm::vec3 origin = from - view.camera.eye;
+            render::SurfacePoint found =
+                render::findCrossing(field, {origin, direction, 0.0F, render::kNoCrossing}, false);
             const oracle::Ray ray{oracle::dvec3(from), oracle::dvec3(direction)};
             const oracle::Hit hit = oracle::traceField(scene, ray, false);
             // A body that the ray only grazes, thinner than a step, may be missed.
@@ -114,7 +119,7 @@ TEST_CASE("Rays of any direction cross the surface of metaballs where the oracle
             CHECK(double(found.distance) == Approx(hit.distance).margin(1e-3));
             CHECK(glm::dot(oracle::dvec3(found.normal), hit.normal) > 0.999);
             const float inside = found.distance + 0.01F;
-            render::findCrossing(field, {from - view.camera.eye, direction, inside, render::kNoCrossing}, true, found);
+            found = render::findCrossing(field, {origin, direction, inside, render::kNoCrossing}, true);
             const oracle::Ray rest{ray.origin + double(inside) * ray.direction, ray.direction};
             const double leaves = double(inside) + oracle::traceField(scene, rest, true).distance;
             if (std::abs(double(found.distance) - leaves) > 1e-3) ++missed;

@@ -1,21 +1,19 @@
-// A ray walks through the grid cell by cell. In each, the balls that it meets there are collected from the cells
-// around, and their kernels along the ray are added up at samples, 16 balls at a time. This file is compiled once per
-// instruction set.
+// A ray walks through the cells of the field. Where the field is surely on the ray's side of the threshold it is not
+// evaluated; in the subcells that the surface may pass through it is sampled, 16 balls at a time. This file is
+// compiled once per instruction set.
 //
-// At the distance t the square root of a ball's kernel is  w - u^2  with  u = t s - c,  where s is the ball's slope,
-// c/s the distance at which the ray comes closest to its center, and w = peak - (closest distance)^2 s^2. The root of
-// an ellipsoid is peak - d^T F d, d being the vector from its center and F its form. For a ray in the direction e it
-// has the same terms, with s^2 = e^T F e, c/s = (toCenter^T F e)/s^2, and w the root there. Hence the field and its
-// derivative:
-//   F = sum max(0, w - u^2)^2,     F' = -4 sum max(0, w - u^2) u s.
+// With the root w = peak - d^T F d of each ball's kernel at a point, d being the vector from its center and F its form,
+// the field and its derivative along the direction e of the ray are sums over the balls with w > 0:
+//   sum w^2,     -4 e^T g  with  g = sum w F d,
+// where g is along the normal that points out of the metaballs.
 #include "render/cpu/transparency/field_crossing.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 
+#include "render/cpu/transparency/ball_cache.h"
 #include "render/cpu/transparency/grid_walk.h"
 #include "render/prepare/cells/tiles.h"
 
@@ -24,31 +22,21 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "render/prepare/cells/simd_rays-inl.h"
-#include "render/prepare/cells/simd_sums-inl.h"
+#include "render/prepare/rays/ball_set-inl.h"
 
 #ifndef RENDER_FIELD_CROSSING_TYPES
 #define RENDER_FIELD_CROSSING_TYPES
 namespace render {
 
-/// The balls that a ray meets within a cell, in whole blocks, of which the last is filled up with balls of no kernel.
-struct MetBalls {
-    std::size_t count = 0;  ///< without those that fill the last block
-    std::vector<float> w, c, s;
-    std::vector<std::int32_t> sortedIndex;  ///< index of each ball in BallCells
-
-    void reserve(std::size_t most) {
-        if (w.size() >= most) return;
-        for (std::vector<float>* values : {&w, &c, &s}) values->resize(2 * most);
-        sortedIndex.resize(2 * most);
-    }
-};
+/// Stands for the slope of the field where only its side of the threshold is known.
+constexpr float kNotSampled = std::numeric_limits<float>::max();
 
 /// The field and its derivative at a distance on a ray.
 struct FieldOnRay {
     float distance = 0.0F;
     float field = 0.0F;
-    float slope = 0.0F;
+    float slope = kNotSampled;
+    glm::vec3 outward{0.0F};  ///< g: along the normal
 };
 
 }  // namespace render
@@ -58,244 +46,161 @@ HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 
-/// The forms of a vector of ellipsoids. (A SymmetricMatrix would not be compiled for the instruction set.)
-struct Forms {
-    V xx, yy, zz, xy, xz, yz;
+template <bool kIsAnisotropic>
+FieldOnRay sampleAt(const BallSet& balls, const RayPart& ray, float distance) {
+    const V zero = splat(0.0F);
+    const Vec3 point = splat(ray.origin + distance * ray.direction);
+    SetSum field, x, y, z;
+    for (std::size_t block = 0; block < balls.size(); block += kBlock) {
+        for (std::size_t v = 0; v < kVectorsPerBlock; ++v) {
+            const BallTerms<kIsAnisotropic> at(balls, block + v * hn::Lanes(D()), point);
+            const V root = hn::Max(at.root, zero);
+            field.add(v, root * root);
+            x.add(v, root * at.turned.x);
+            y.add(v, root * at.turned.y);
+            z.add(v, root * at.turned.z);
+        }
+    }
+    const glm::vec4 sums = totals(x, y, z, field);
+    const glm::vec3 outward(sums);
+    return {distance, sums.w, -4.0F * dot(outward, ray.direction), outward};
+}
 
-    Forms(const BallCells& cells, std::size_t first)
-        : xx(entry(cells, 0, first)),
-          yy(entry(cells, 1, first)),
-          zz(entry(cells, 2, first)),
-          xy(entry(cells, 3, first)),
-          xz(entry(cells, 4, first)),
-          yz(entry(cells, 5, first)) {}
+/// The search for the first crossing on a ray.
+template <bool kIsAnisotropic>
+class CrossingSearch {
+ public:
+    CrossingSearch(const CastField& field, const RayPart& ray, bool isInside)
+        : field_(field), ray_(ray), isInside_(isInside), inverse_(inverseOf(ray.direction)) {}
 
-    Vec3 times(const Vec3& v) const {
-        return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z, xz * v.x + yz * v.y + zz * v.z};
+    SurfacePoint find() {
+        const BallCells& cells = field_.cells;
+        GridWalk walk({cells.low, cells.side, cells.count}, ray_, inverse_);
+        for (; !walk.isOver(); walk.next()) {
+            block_ = walk.index();
+            const std::int32_t block = field_.sides.blocks[block_];
+            if (block >= 0 ? crossesBlock(walk, block) : crossesAll(walk.from(), block)) return found_;
+        }
+        // Outside of the grid is no ball: a ray that is inside leaves the metaballs where the grid ends.
+        if (isInside_ && walk.end() < ray_.to) setFound({std::max(walk.end(), ray_.from), 0.0F, 0.0F, {}}, nullptr);
+        return found_;
     }
 
  private:
-    static V entry(const BallCells& cells, std::size_t which, std::size_t first) {
-        return hn::LoadU(D(), &cells.form[which][first]);
+    /// The place of the block in the grid.
+    glm::ivec3 blockPlace() const {
+        const auto columns = static_cast<std::size_t>(field_.cells.count.x);
+        const auto rows = static_cast<std::size_t>(field_.cells.count.y);
+        return {block_ % columns, block_ / columns % rows, block_ / columns / rows};
     }
+
+    /// Passes a block or subcell that is on one side of the threshold. @return whether that is not the ray's
+    bool crossesAll(float from, std::int32_t side) {
+        isFirst_ = false;
+        last_.slope = kNotSampled;
+        if ((side == kAllInside) == isInside_) return false;
+        const BallSet& balls = field_.cache.around(field_.cells, blockPlace(), block_);
+        return setFound(sampleAt<kIsAnisotropic>(balls, ray_, from), &balls);
+    }
+
+    /// Passes the subcells of a block. @return whether the ray crosses the threshold in one of them
+    bool crossesBlock(const GridWalk& walk, std::int32_t block) {
+        const float side = field_.cells.side;
+        const int along = field_.sides.along;
+        const CubeGrid grid{field_.cells.low + side * glm::vec3(blockPlace()), side / static_cast<float>(along),
+                            glm::ivec3(along)};
+        const std::size_t first = field_.sides.subcellsOfBlock() * static_cast<std::size_t>(block);
+        const RayPart part{ray_.origin, ray_.direction, walk.from(), walk.to()};
+        for (GridWalk subwalk(grid, part, inverse_); !subwalk.isOver(); subwalk.next()) {
+            const std::size_t subcell = first + subwalk.index();
+            const std::int32_t count = field_.sides.subcells[subcell].count;
+            if (count > 0 ? crossesSubcell(subwalk, subcell) : crossesAll(subwalk.from(), count)) return true;
+        }
+        return false;
+    }
+
+    /// Passes a subcell that the surface may pass through.
+    bool crossesSubcell(const GridWalk& walk, std::size_t subcell) {
+        const BallSet& balls = field_.cache.ofSubcell(field_.cells, field_.sides, subcell);
+        if (isFirst_) {
+            isFirst_ = false;
+            last_ = sampleAt<kIsAnisotropic>(balls, ray_, walk.from());
+            if (isAcross(last_)) return setFound(last_, &balls);
+        }
+        if (last_.slope == kNotSampled) last_.distance = walk.from();
+        const float length = walk.to() - walk.from();
+        const int steps = static_cast<int>(length / field_.step) + 1;
+        const float step = length / static_cast<float>(steps);
+        for (int k = 1; k <= steps; ++k) {
+            const float at = k == steps ? walk.to() : walk.from() + step * static_cast<float>(k);
+            const FieldOnRay next = sampleAt<kIsAnisotropic>(balls, ray_, at);
+            if (isAcross(next)) return setFound(refined(balls, last_, next), &balls);
+            if (turnsBack(balls, next)) return true;
+            last_ = next;
+        }
+        return false;
+    }
+
+    /// Whether a sample is on the other side of the threshold than the ray.
+    bool isAcross(const FieldOnRay& sample) const { return (sample.field >= field_.threshold) != isInside_; }
+
+    /// Whether the field is across between the last sample and the next, neither of which is, because it turns back
+    /// between them: at the extremum of the cubic through both samples' values and slopes.
+    bool turnsBack(const BallSet& balls, const FieldOnRay& next) {
+        const float sign = isInside_ ? -1.0F : 1.0F;
+        if (!(sign * next.slope < 0.0F)) return false;
+        if (last_.slope == kNotSampled) last_ = sampleAt<kIsAnisotropic>(balls, ray_, last_.distance);
+        if (!(sign * last_.slope > 0.0F)) return false;
+        // The secant of the slopes is near enough to the extremum: a body or a gap that it misses is thinner still.
+        const float share = last_.slope / (last_.slope - next.slope);
+        const FieldOnRay turn =
+            sampleAt<kIsAnisotropic>(balls, ray_, last_.distance + (next.distance - last_.distance) * share);
+        if (!isAcross(turn)) return false;
+        return setFound(refined(balls, last_, turn), &balls);
+    }
+
+    /// A sample as near to where the field has the threshold between two samples as matters: Newton's steps from the
+    /// far one, halved where they leave the interval.
+    FieldOnRay refined(const BallSet& balls, FieldOnRay near, FieldOnRay far) const {
+        constexpr int kMostSteps = 16;  // enough for bisection alone to reach a float's precision
+        // The step that follows is the square of this, and normals are off by as much as radii are longer than steps.
+        const float precise = 1e-3F * (far.distance - near.distance);
+        FieldOnRay at = far;
+        for (int k = 0; k < kMostSteps; ++k) {
+            const float next = at.distance - (at.field - field_.threshold) / at.slope;
+            const bool isWithin = next > near.distance && next < far.distance;
+            if (isWithin && std::abs(next - at.distance) < precise) {
+                at.distance = next;
+                break;
+            }
+            at = sampleAt<kIsAnisotropic>(balls, ray_, isWithin ? next : 0.5F * (near.distance + far.distance));
+            (isAcross(at) ? far : near) = at;
+        }
+        return at;
+    }
+
+    /// @return true
+    bool setFound(const FieldOnRay& at, const BallSet* balls) {
+        const float square = dot(at.outward, at.outward);
+        found_.distance = at.distance;
+        found_.normal = square > 0.0F ? at.outward * (1.0F / std::sqrt(square)) : -ray_.direction;
+        found_.balls = balls;
+        return true;
+    }
+
+    const CastField& field_;
+    const RayPart& ray_;
+    bool isInside_;
+    glm::vec3 inverse_;
+    std::size_t block_ = 0;  // number of the block that the ray is in
+    bool isFirst_ = true;    // whether nothing is known of the field on the ray yet
+    FieldOnRay last_;        // on the ray's side
+    SurfacePoint found_;
 };
 
-/// Appends those of the balls with the sorted indices from `first` to `end` whose kernels a part of a ray meets.
-/// @tparam kIsAnisotropic  whether balls are ellipsoids
-template <bool kIsAnisotropic>
-void addMet(const BallCells& cells, std::size_t first, std::size_t end, const RayPart& ray, MetBalls& met) {
-    const D d;
-    const DI di;
-    const VI lane = hn::Iota(di, 0);
-    float* const toW = met.w.data();
-    float* const toC = met.c.data();
-    float* const toS = met.s.data();
-    std::int32_t* const toIndex = met.sortedIndex.data();
-    std::size_t count = met.count;
-    const Vec3 origin = splat(ray.origin);
-    const Vec3 direction = splat(ray.direction);
-    for (; first < end; first += hn::Lanes(d)) {
-        const auto loadFrom = [&](const std::vector<float>& values) { return hn::LoadU(d, &values[first]); };
-        const Vec3 toCenter = Vec3{loadFrom(cells.x), loadFrom(cells.y), loadFrom(cells.z)} - origin;
-        V s, closest, drop;
-        if constexpr (kIsAnisotropic) {
-            const Forms form(cells, first);
-            const Vec3 turned = form.times(direction);
-            const V square = dot(direction, turned);
-            s = hn::Sqrt(square);
-            // The forms that follow the last ball's are 0.
-            closest = dot(toCenter, turned) / hn::Max(square, splat(1e-30F));
-            const Vec3 off = toCenter - direction * closest;
-            drop = dot(off, form.times(off));
-        } else {
-            s = loadFrom(cells.slope);
-            closest = dot(toCenter, direction);
-            const Vec3 off = toCenter - direction * closest;
-            drop = dot(off, off) * (s * s);
-        }
-        const V w = loadFrom(cells.peak) - drop;
-        const V c = closest * s;
-        const V u = hn::Min(hn::Max(closest, splat(ray.from)), splat(ray.to)) * s - c;
-        const M isMet = hn::And(w > u * u, hn::FirstN(d, end - first));
-        if (none(isMet)) continue;
-        const VI index = lane + splatInt(static_cast<std::int32_t>(first));
-        // Compressing within the register and storing all of it is faster than compressed stores to memory.
-        hn::StoreU(hn::Compress(w, isMet), d, toW + count);
-        hn::StoreU(hn::Compress(c, isMet), d, toC + count);
-        hn::StoreU(hn::Compress(s, isMet), d, toS + count);
-        hn::StoreU(hn::Compress(index, hn::RebindMask(di, isMet)), di, toIndex + count);
-        count += hn::CountTrue(d, isMet);
-    }
-    met.count = count;
-}
-
-/// Collects the balls that a part of a ray meets within a cell.
-void collect(const BallCells& cells, glm::ivec3 cell, const RayPart& ray, MetBalls& met) {
-    const glm::ivec3 low = max(cell - 1, glm::ivec3(0));
-    const glm::ivec3 high = min(cell + 1, cells.count - 1);
-    met.count = 0;
-    for (int z = low.z; z <= high.z; ++z) {
-        for (int y = low.y; y <= high.y; ++y) {
-            const std::size_t first = cells.begin[cellIndex(cells.count, low.x, y, z)];
-            const std::size_t end = cells.begin[cellIndex(cells.count, high.x, y, z) + 1];
-            // Whole vectors are stored, and a block to fill up the last.
-            met.reserve(met.count + (end - first) + 2 * kBlock);
-            cells.isAnisotropic() ? addMet<true>(cells, first, end, ray, met)
-                                  : addMet<false>(cells, first, end, ray, met);
-        }
-    }
-    std::fill_n(&met.w[met.count], kBlock, -1.0F);
-    std::fill_n(&met.c[met.count], kBlock, 0.0F);
-    std::fill_n(&met.s[met.count], kBlock, 0.0F);
-}
-
-FieldOnRay sampleAt(const MetBalls& met, float distance) {
-    const D d;
-    const V zero = splat(0.0F);
-    const V at = splat(distance);
-    BlockSum field, slope;
-    field.fill(zero);
-    slope.fill(zero);
-    for (std::size_t block = 0; block < met.count; block += kBlock) {
-        for (std::size_t v = 0; v < kVectorsPerBlock; ++v) {
-            const std::size_t k = block + v * hn::Lanes(d);
-            const V s = hn::LoadU(d, &met.s[k]);
-            const V u = at * s - hn::LoadU(d, &met.c[k]);
-            const V root = hn::Max(hn::LoadU(d, &met.w[k]) - u * u, zero);
-            field[v] = field[v] + root * root;
-            slope[v] = slope[v] - root * (u * s);
-        }
-    }
-    return {distance, total(field), 4.0F * total(slope)};
-}
-
-/// A bound of the field on a part of a ray: inside the metaballs one that it is nowhere below, outside one that it is
-/// nowhere above. The root of a kernel is a parabola that opens downward: its least value is at an end of the part, its
-/// greatest where the ray comes closest to the ball, or at the end nearest to that.
-float boundOn(const MetBalls& met, float from, float to, bool isInside) {
-    const D d;
-    const V zero = splat(0.0F);
-    BlockSum bound;
-    bound.fill(zero);
-    for (std::size_t block = 0; block < met.count; block += kBlock) {
-        for (std::size_t v = 0; v < kVectorsPerBlock; ++v) {
-            const std::size_t k = block + v * hn::Lanes(d);
-            const V s = hn::LoadU(d, &met.s[k]);
-            const V c = hn::LoadU(d, &met.c[k]);
-            const V atFrom = splat(from) * s - c;
-            const V atTo = splat(to) * s - c;
-            const V farthest = hn::Max(hn::Abs(atFrom), hn::Abs(atTo));
-            const V nearest = hn::Max(hn::Max(atFrom, hn::Neg(atTo)), zero);
-            const V u = isInside ? farthest : nearest;
-            const V root = hn::Max(hn::LoadU(d, &met.w[k]) - u * u, zero);
-            bound[v] = bound[v] + root * root;
-        }
-    }
-    return total(bound);
-}
-
-/// Whether a sample is on the other side of the threshold than the ray.
-bool isAcross(const FieldOnRay& sample, float threshold, bool isInside) {
-    return (sample.field >= threshold) != isInside;
-}
-
-/// The distance between two samples at which the field has the threshold: Newton's steps from the far sample, halved
-/// where they leave the interval.
-float refined(const MetBalls& met, float threshold, FieldOnRay near, FieldOnRay far, bool isInside) {
-    constexpr int kMostSteps = 16;  // enough for bisection alone to reach a float's precision
-    const float precise = 1e-4F * (far.distance - near.distance);
-    FieldOnRay at = std::abs(near.field - threshold) < std::abs(far.field - threshold) ? near : far;
-    for (int k = 0; k < kMostSteps && far.distance - near.distance > precise; ++k) {
-        float next = at.distance - (at.field - threshold) / at.slope;
-        if (!(next > near.distance && next < far.distance)) next = 0.5F * (near.distance + far.distance);
-        const float moved = std::abs(next - at.distance);
-        at = sampleAt(met, next);
-        (isAcross(at, threshold, isInside) ? far : near) = at;
-        if (moved < precise) break;
-    }
-    return at.distance;
-}
-
-/// The first sample on the other side of the threshold between two samples on the ray's side, if the field turns back
-/// between them: at the extremum of the cubic through both samples' values and slopes.
-bool findTurn(const MetBalls& met, float threshold, const FieldOnRay& a, const FieldOnRay& b, bool isInside,
-              FieldOnRay& turn) {
-    const float sign = isInside ? -1.0F : 1.0F;
-    if (!(sign * a.slope > 0.0F && sign * b.slope < 0.0F)) return false;
-    // The secant of the slopes is near enough to the extremum: a body or a gap that it misses is thinner still.
-    turn = sampleAt(met, a.distance + (b.distance - a.distance) * (a.slope / (a.slope - b.slope)));
-    return isAcross(turn, threshold, isInside);
-}
-
-/// Stands for the slope of the field where only a bound of the field is known.
-constexpr float kNotSampled = std::numeric_limits<float>::max();
-
-/// The distance at which a part of a ray within one cell crosses the threshold. Where bounds show that it does not, the
-/// ray advances by up to four steps at a time; elsewhere the field is sampled at every step.
-float crossingInCell(const CastField& field, const MetBalls& met, const RayPart& part, bool isInside) {
-    if (met.count == 0) return isInside ? part.from : kNoCrossing;
-    FieldOnRay last = sampleAt(met, part.from);
-    if (isAcross(last, field.threshold, isInside)) return part.from;
-    float advance = 4.0F * field.step;
-    while (last.distance < part.to) {
-        const float to = std::min(last.distance + advance, part.to);
-        const float bound = boundOn(met, last.distance, to, isInside);
-        if (isInside ? bound >= field.threshold : bound < field.threshold) {
-            last = {to, bound, kNotSampled};
-            advance = std::min(2.0F * advance, 4.0F * field.step);
-            continue;
-        }
-        if (advance > field.step) {
-            advance *= 0.5F;
-            continue;
-        }
-        if (last.slope == kNotSampled) last = sampleAt(met, last.distance);
-        const FieldOnRay next = sampleAt(met, to);
-        FieldOnRay turn;
-        if (isAcross(next, field.threshold, isInside)) return refined(met, field.threshold, last, next, isInside);
-        if (findTurn(met, field.threshold, last, next, isInside, turn))
-            return refined(met, field.threshold, last, turn, isInside);
-        last = next;
-    }
-    return kNoCrossing;
-}
-
-/// Sets the normal of a point of the surface and the shares of its balls.
-void setSurface(const CastField& field, const RayPart& ray, const MetBalls& met, SurfacePoint& found) {
-    const BallCells& cells = field.cells;
-    const glm::vec3 point = ray.origin + found.distance * ray.direction;
-    glm::vec3 downhill(0.0F);
-    for (std::size_t k = 0; k < met.count; ++k) {
-        const float u = found.distance * met.s[k] - met.c[k];
-        const float root = met.w[k] - u * u;
-        if (root <= 0.0F) continue;
-        const auto ball = static_cast<std::size_t>(met.sortedIndex[k]);
-        const glm::vec3 off = point - glm::vec3(cells.x[ball], cells.y[ball], cells.z[ball]);
-        downhill += root * (cells.isAnisotropic() ? cells.formOf(ball).times(off) : met.s[k] * met.s[k] * off);
-        found.shares.push_back({cells.particle[ball], root * root});
-    }
-    const float square = dot(downhill, downhill);
-    found.normal = square > 0.0F ? downhill * (1.0F / std::sqrt(square)) : -ray.direction;
-}
-
-void findCrossing(const CastField& field, const RayPart& ray, bool isInside, SurfacePoint& found) {
-    thread_local MetBalls met;
-    found.distance = kNoCrossing;
-    found.shares.clear();
-    const auto finish = [&](float distance, const RayPart& part) {
-        found.distance = distance;
-        setSurface(field, part, met, found);
-    };
-    GridWalk walk(field.cells, ray);
-    for (; !walk.isOver(); walk.next()) {
-        const RayPart part = walk.part();
-        collect(field.cells, walk.cell(), part, met);
-        const float distance = crossingInCell(field, met, part, isInside);
-        if (distance != kNoCrossing) return finish(distance, part);
-    }
-    // Outside of the grid is no ball: a ray that is inside leaves the metaballs where the grid ends.
-    met.count = 0;
-    if (isInside && walk.end() < ray.to) finish(std::max(walk.end(), ray.from), ray);
+SurfacePoint findCrossing(const CastField& field, const RayPart& ray, bool isInside) {
+    if (field.cells.isAnisotropic()) return CrossingSearch<true>(field, ray, isInside).find();
+    return CrossingSearch<false>(field, ray, isInside).find();
 }
 
 }  // namespace HWY_NAMESPACE
@@ -308,8 +213,20 @@ namespace render {
 
 HWY_EXPORT(findCrossing);
 
-void findCrossing(const CastField& field, const RayPart& ray, bool isInside, SurfacePoint& found) {
-    HWY_DYNAMIC_DISPATCH(findCrossing)(field, ray, isInside, found);
+SurfacePoint findCrossing(const CastField& field, const RayPart& ray, bool isInside) {
+    return HWY_DYNAMIC_DISPATCH(findCrossing)(field, ray, isInside);
+}
+
+void findShares(const BallCells& cells, const BallSet& balls, glm::vec3 point, std::vector<BallShare>& shares) {
+    shares.clear();
+    for (std::size_t k = 0; k < balls.size(); ++k) {
+        const auto ball = static_cast<std::size_t>(balls.index(k));
+        const glm::vec3 off = point - glm::vec3(cells.x[ball], cells.y[ball], cells.z[ball]);
+        const float drop = cells.isAnisotropic() ? dot(off, cells.formOf(ball).times(off))
+                                                 : dot(off, off) * (cells.slope[ball] * cells.slope[ball]);
+        const float root = cells.peak[ball] - drop;
+        if (root > 0.0F) shares.push_back({cells.particle[ball], root * root});
+    }
 }
 
 }  // namespace render

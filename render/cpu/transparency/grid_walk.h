@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include <glm/glm.hpp>
@@ -10,60 +12,78 @@
 
 namespace render {
 
+/// A grid of cubes in space.
+struct CubeGrid {
+    glm::vec3 low{0.0F};  ///< corner of the first cell, m
+    float side = 1.0F;    ///< of a cell, m
+    glm::ivec3 count{0};  ///< number of cells along each axis
+};
+
+/// 1 / direction, finite. A ray that runs along a plane is in the slab beside it everywhere or nowhere.
+inline glm::vec3 inverseOf(glm::vec3 direction) {
+    glm::vec3 inverse;
+    for (int axis = 0; axis < 3; ++axis) {
+        const float slope = direction[axis];
+        const float least = std::numeric_limits<float>::min();
+        inverse[axis] = 1.0F / (slope < 0.0F ? std::min(slope, -least) : std::max(slope, least));
+    }
+    return inverse;
+}
+
 class GridWalk {
  public:
-    GridWalk(const BallCells& cells, const RayPart& ray) : cells_(cells), part_(ray), last_(ray.to) {
-        const glm::vec3 high = cells.high();
-        for (int axis = 0; axis < 3; ++axis) {
-            // A ray that runs along a plane is in the slab everywhere or nowhere.
-            const float slope = ray.direction[axis];
-            const float least = std::numeric_limits<float>::min();
-            const float inverse = 1.0F / (slope < 0.0F ? std::min(slope, -least) : std::max(slope, least));
-            const float a = (cells.low[axis] - ray.origin[axis]) * inverse;
-            const float b = (high[axis] - ray.origin[axis]) * inverse;
-            part_.from = std::max(part_.from, std::min(a, b));
-            last_ = std::min(last_, std::max(a, b));
-            inverse_[axis] = inverse;
-        }
+    /// @param inverse  that of the ray's direction
+    GridWalk(const CubeGrid& grid, const RayPart& ray, glm::vec3 inverse) : from_(ray.from), last_(ray.to) {
+        const glm::vec3 a = (grid.low - ray.origin) * inverse;
+        const glm::vec3 b = a + grid.side * glm::vec3(grid.count) * inverse;
+        const glm::vec3 enters = min(a, b);
+        const glm::vec3 leaves = max(a, b);
+        from_ = std::max({from_, enters.x, enters.y, enters.z});
+        last_ = std::min({last_, leaves.x, leaves.y, leaves.z});
         if (isOver()) return;
-        const glm::vec3 first = (ray.origin + part_.from * ray.direction - cells.low) / cells.side;
-        cell_ = clamp(glm::ivec3(first), glm::ivec3(0), cells.count - 1);
+        const glm::vec3 first = (ray.origin + from_ * ray.direction - grid.low) * (1.0F / grid.side);
+        const glm::ivec3 stride(1, grid.count.x, grid.count.x * grid.count.y);
+        for (int axis = 0; axis < 3; ++axis) {
+            const int cell = std::clamp(static_cast<int>(first[axis]), 0, grid.count[axis] - 1);
+            const bool isDown = inverse[axis] < 0.0F;
+            index_ += cell * stride[axis];
+            step_[axis] = isDown ? -stride[axis] : stride[axis];
+            left_[axis] = isDown ? cell : grid.count[axis] - 1 - cell;
+            spacing_[axis] = grid.side * std::abs(inverse[axis]);
+            next_[axis] = a[axis] + static_cast<float>(isDown ? cell : cell + 1) * (grid.side * inverse[axis]);
+        }
         findEnd();
     }
 
-    bool isOver() const { return !(part_.from < last_); }
-    glm::ivec3 cell() const { return cell_; }
-    /// The part of the ray within the cell.
-    const RayPart& part() const { return part_; }
+    bool isOver() const { return !(from_ < last_); }
+    /// Number of the cell, x fastest.
+    std::size_t index() const { return static_cast<std::size_t>(index_); }
+    /// Distances at which the ray enters the cell and leaves it.
+    float from() const { return from_; }
+    float to() const { return to_; }
     /// Where the ray leaves the grid or ends, m; below where it begins if it misses the grid.
     float end() const { return last_; }
 
     void next() {
-        part_.from = part_.to;
-        cell_[axis_] += inverse_[axis_] < 0.0F ? -1 : 1;
-        if (cell_[axis_] < 0 || cell_[axis_] >= cells_.count[axis_]) part_.from = last_;
-        if (!isOver()) findEnd();
+        from_ = left_[axis_]-- > 0 ? to_ : last_;
+        index_ += step_[axis_];
+        next_[axis_] += spacing_[axis_];
+        findEnd();
     }
 
  private:
     /// Finds the side through which the ray leaves the cell.
     void findEnd() {
-        part_.to = last_;
-        for (int axis = 0; axis < 3; ++axis) {
-            const int side = cell_[axis] + (inverse_[axis] < 0.0F ? 0 : 1);
-            const float bound = cells_.low[axis] + static_cast<float>(side) * cells_.side;
-            const float at = std::max((bound - part_.origin[axis]) * inverse_[axis], part_.from);
-            if (at > part_.to) continue;
-            part_.to = at;
-            axis_ = axis;
-        }
+        axis_ = next_.x <= next_.y ? (next_.x <= next_.z ? 0 : 2) : (next_.y <= next_.z ? 1 : 2);
+        to_ = std::clamp(next_[axis_], from_, last_);
     }
 
-    const BallCells& cells_;
-    RayPart part_;
-    float last_;
-    glm::vec3 inverse_{1.0F};  // 1 / direction
-    glm::ivec3 cell_{0};
+    float from_, to_ = 0.0F, last_;
+    glm::vec3 next_{0.0F};     // where the ray leaves the cell along each axis
+    glm::vec3 spacing_{0.0F};  // between such places
+    glm::ivec3 step_{0};       // from the index of a cell to that of the next along each axis
+    glm::ivec3 left_{0};       // number of cells that follow along each axis
+    int index_ = 0;
     int axis_ = 0;  // along which the ray leaves the cell
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "render/cpu/transparency/attenuation.h"
 #include "render/cpu/transparency/field_crossing.h"
@@ -44,10 +45,10 @@ glm::vec3 particleSkyToward(const SkyVisibility& sky, glm::vec3 normal, glm::vec
 
 class RayWalk {
  public:
-    RayWalk(const PreparedView& view, const ShadingGeometry& geometry)
+    RayWalk(const PreparedView& view, const ShadingGeometry& geometry, BallCache& cache)
         : view_(view),
           geometry_(geometry),
-          field_{view.ballCells, view.metaballs.threshold, view.metaballs.step},
+          field_{view.ballCells, view.fieldCells, view.metaballs.threshold, view.metaballs.step, cache},
           // Chosen: below what can be seen, above the error of interpolated primary hits.
           lift_(0.05F * view.metaballs.smallestRadius) {}
 
@@ -139,8 +140,8 @@ class RayWalk {
         const SolidHit solid = nearestSolid(view_.solids, geometry_, origin_, path_.direction, least);
         const bool isInMesh = place_.mesh.has_value();
         if (!isInMesh && !view_.ballCells.empty()) {
-            findCrossing(field_, {origin_, path_.direction, searchFrom_, solid.distance}, place_.isInMetaballs,
-                         crossing_);
+            crossing_ =
+                findCrossing(field_, {origin_, path_.direction, searchFrom_, solid.distance}, place_.isInMetaballs);
             if (crossing_.distance < solid.distance && !isInContact(solid)) return surfaceOfMetaballs();
         }
         return solid.isNone() ? NextSurface{} : surfaceOfSolid(isInMesh ? beyondContact(solid) : solid);
@@ -174,24 +175,29 @@ class RayWalk {
     }
 
     NextSurface surfaceOfMetaballs() const {
-        const float side = place_.isInMetaballs ? -1.0F : 1.0F;
-        return {crossing_.distance, kHitMetaballs, side * crossing_.normal, colorOfMetaballs(), false};
+        // Where the ray leaves metaballs, their color does not count.
+        if (place_.isInMetaballs) return {crossing_.distance, kHitMetaballs, -crossing_.normal, glm::vec3(0.0F), false};
+        return {crossing_.distance, kHitMetaballs, crossing_.normal, colorOfMetaballs(), false};
     }
 
-    /// The mean of a value of the particles at the last crossing.
-    template <typename Value, typename ValueOf>
-    Value meanAtCrossing(Value zero, const ValueOf& valueOf) const {
-        Value sum = zero;
+    /// The mean of a value of the particles at a point of the last crossing.
+    template <typename ValueOf>
+    glm::vec3 meanAtCrossing(glm::vec3 point, const ValueOf& valueOf) const {
+        thread_local std::vector<BallShare> shares;
+        if (crossing_.balls == nullptr) return glm::vec3(0.0F);
+        findShares(view_.ballCells, *crossing_.balls, point, shares);
+        glm::vec3 sum(0.0F);
         float kernels = 0.0F;
-        for (const BallShare& share : crossing_.shares) {
+        for (const BallShare& share : shares) {
             sum += share.kernel * valueOf(static_cast<std::size_t>(share.particle));
             kernels += share.kernel;
         }
-        return kernels > 0.0F ? sum / kernels : zero;
+        return kernels > 0.0F ? sum / kernels : glm::vec3(0.0F);
     }
 
     glm::vec3 colorOfMetaballs() const {
-        return meanAtCrossing(glm::vec3(0.0F), [&](std::size_t k) { return view_.view->particles[k].color; });
+        return meanAtCrossing(origin_ + crossing_.distance * path_.direction,
+                              [&](std::size_t k) { return view_.view->particles[k].color; });
     }
 
     /// Where the ray comes to behind a transparent surface.
@@ -213,7 +219,7 @@ class RayWalk {
     void findContact(const NextSurface& next, Place& beyond) {
         if (view_.ballCells.empty() || !view_.view->surface.medium.isTransparent()) return;
         const float cosine = std::max(-dot(next.normal, path_.direction), 1.0F / kLongestLayer);
-        findCrossing(field_, {origin_, path_.direction, 0.0F, view_.meanRadius / cosine}, false, crossing_);
+        crossing_ = findCrossing(field_, {origin_, path_.direction, 0.0F, view_.meanRadius / cosine}, false);
         if (crossing_.distance == kNoCrossing) return;
         beyond.isInMetaballs = true;
         beyond.color = colorOfMetaballs();
@@ -227,7 +233,7 @@ class RayWalk {
         path_.color = end.color;
         if (view_.particleSky.empty()) return;
         if (end.hitId >= kHitMetaballs) {
-            path_.sky = meanAtCrossing(glm::vec3(0.0F), [&](std::size_t k) {
+            path_.sky = meanAtCrossing(origin_, [&](std::size_t k) {
                 return particleSkyToward(view_.particleSky[k], end.normal, path_.direction);
             });
         } else if (end.hitId >= 0 && end.hitId < geometry_.firstObstacle) {
@@ -258,8 +264,9 @@ const Medium* mediumOf(const PreparedView& view, std::int32_t hitId) {
     return ifTransparent(view.meshes.obstacles[mesh].medium);
 }
 
-LightPath followRay(const PreparedView& view, const ShadingGeometry& geometry, const FirstSurface& first) {
-    return RayWalk(view, geometry).follow(first);
+LightPath followRay(const PreparedView& view, const ShadingGeometry& geometry, const FirstSurface& first,
+                    BallCache& cache) {
+    return RayWalk(view, geometry, cache).follow(first);
 }
 
 float mirroredShare(float from, float to, float cosine) {

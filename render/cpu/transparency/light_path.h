@@ -37,8 +37,12 @@ struct LightPath {
 /// The transparent body that a primary hit shows; null if what it hits is not transparent.
 const Medium* mediumOf(const PreparedView& view, std::int32_t hitId);
 
+class BallCache;
+
 /// Follows a ray from its first transparent surface on. @pre the view has transparent bodies
-LightPath followRay(const PreparedView& view, const ShadingGeometry& geometry, const FirstSurface& first);
+/// @param cache  of this view's balls
+LightPath followRay(const PreparedView& view, const ShadingGeometry& geometry, const FirstSurface& first,
+                    BallCache& cache);
 
 /// The share of light that a surface between media with these refractive indices mirrors, by Schlick's approximation.
 /// @param cosine  of the ray's angle with the normal, on the side of the first medium

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/cpu/transparency/ball_cache.h"
 #include "render/cpu/transparency/light_path.h"
 
 namespace render {
@@ -79,6 +80,8 @@ void setEnd(const CameraFrame& frame, const ShadingPoints& points, std::size_t k
 
 void findSeenThrough(const PreparedView& view, const ShadingGeometry& geometry, const ShadingPoints& points,
                      const LightVisibility* visibility, SeenThrough& behind) {
+    thread_local BallCache cache;
+    cache.clear();
     behind.ends.count = 0;
     for (std::size_t k = 0; k < points.count; ++k) {
         const glm::vec3 direction = rayDirection(geometry.frame, points.x[k], points.y[k]);
@@ -89,7 +92,7 @@ void findSeenThrough(const PreparedView& view, const ShadingGeometry& geometry, 
         if (medium == nullptr) continue;
         const FirstSurface first{vectorAt(points.position, k), direction, vectorAt(points.normal, k),
                                  vectorAt(points.albedo, k), points.hitId[k]};
-        const LightPath path = followRay(view, geometry, first);
+        const LightPath path = followRay(view, geometry, first, cache);
         glm::vec3 added = path.mirrored;
         if (first.hitId < kHitMetaballs)
             added += mirroredByMesh(*view.view, view.light.toLight, first, *medium,
