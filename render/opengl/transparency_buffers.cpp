@@ -7,8 +7,32 @@
 
 namespace render {
 
+namespace {
+
+/// All numbers of the cells in one list, as shaders/field_crossing.glsl describes it.
+std::vector<std::int32_t> cellNumbers(const BallCells& cells, const FieldCells& field) {
+    constexpr std::size_t kHead = 4;
+    std::vector<std::int32_t> numbers(kHead);
+    numbers.reserve(kHead + cells.begin.size() + field.blocks.size() + 2 * field.subcells.size() + field.balls.size());
+    const auto end = [&] { return static_cast<std::int32_t>(numbers.size()); };
+    numbers.insert(numbers.end(), cells.begin.begin(), cells.begin.end());
+    numbers[0] = field.along;
+    numbers[1] = end();
+    numbers.insert(numbers.end(), field.blocks.begin(), field.blocks.end());
+    numbers[2] = end();
+    for (const Subcell& subcell : field.subcells) {
+        numbers.push_back(static_cast<std::int32_t>(subcell.first));
+        numbers.push_back(subcell.count);
+    }
+    numbers[3] = end();
+    numbers.insert(numbers.end(), field.balls.begin(), field.balls.end());
+    return numbers;
+}
+
+}  // namespace
+
 TransparencyBuffers::TransparencyBuffers(const Gl& gl)
-    : cellBegins_(gl, GL_R32I),
+    : cellNumbers_(gl, GL_R32I),
       cellBalls_(gl, GL_RGBA32F),
       cellSky_(gl, GL_RGBA32UI),
       nodes_(gl, GL_RGBA32F),
@@ -40,7 +64,7 @@ void TransparencyBuffers::uploadBalls(const PreparedView& view) {
         }
         if (!sky.empty()) sky[k] = particleAttributes(view.view->particles[particle].color, view.particleSky[particle]);
     });
-    uploadList(cellBegins_, cells.begin, "the cells of metaballs");
+    uploadList(cellNumbers_, cellNumbers(cells, view.fieldCells), "the cells of metaballs");
     uploadList(cellBalls_, balls, "the metaballs of cells");
     uploadList(cellSky_, sky, "the sky that metaballs see");
 }
@@ -79,7 +103,7 @@ void TransparencyBuffers::addBindings(std::vector<TextureBinding>& to) const {
     const auto add = [&](const char* sampler, const TextureBuffer& buffer) {
         to.push_back({sampler, GL_TEXTURE_BUFFER, buffer.texture()});
     };
-    add("cellBegins", cellBegins_);
+    add("cellNumbers", cellNumbers_);
     add("cellBalls", cellBalls_);
     add("cellSky", cellSky_);
     add("solidNodes", nodes_);

@@ -27,7 +27,7 @@ class TransparencyBuffers {
     void uploadSolids(const PreparedView& view);
     void uploadOpticalDepths(const PreparedView& view);
 
-    TextureBuffer cellBegins_, cellBalls_, cellSky_;
+    TextureBuffer cellNumbers_, cellBalls_, cellSky_;
     TextureBuffer nodes_, links_, solids_, triangles_, media_;
     TextureBuffer opticalDepths_;
 };

@@ -1,7 +1,11 @@
-// Where a ray of any direction crosses the surface of metaballs. In each cell of their grid that the ray passes the
-// field is sampled at eight distances at a time, because fetching a ball costs more than evaluating its kernel.
+// Where a ray of any direction crosses the surface of metaballs. Where the field is surely on the ray's side it is not
+// evaluated. In the subcells that the surface may pass through it is sampled at four distances at a time, because
+// fetching a ball costs more than evaluating its kernel.
 
-uniform isamplerBuffer cellBegins;  // of each cell, x fastest: its first ball
+// Of FieldCells and BallCells: the number of subcells along a side of a cell, and where the next three lists begin; then
+// the first ball of each cell, x fastest; the side of each cell, or the number of its subcells; two numbers a subcell,
+// its first place in the last list and its side, or the number of its balls; the balls of subcells.
+uniform isamplerBuffer cellNumbers;
 // Two texels a ball: center (m) and peak, color and slope (1/m). Two more for an ellipsoid: the entries xx, yy, zz, xy,
 // xz and yz of its form (1/m^2).
 uniform samplerBuffer cellBalls;
@@ -20,6 +24,13 @@ struct FieldCrossing {
     vec3 skyPlus;
     vec3 skyMinus;
 };
+
+const int kAllInside = -2;
+const int kFirstBegin = 4;
+
+int numberOf(int index) {
+    return texelFetch(cellNumbers, index).x;
+}
 
 int ballCellIndex(int x, int y, int z) {
     return (z * int(cellCount.y) + y) * int(cellCount.x) + x;
@@ -42,28 +53,28 @@ mat3 formOf(int ball) {
 }
 #endif
 
-// A loop over the balls whose kernels may reach a cell: `k` is the index of a ball.
-#define FOR_BALLS_NEAR(cell)                                                                   \
-    ivec3 low = max(cell - 1, ivec3(0));                                                       \
-    ivec3 high = min(cell + 1, ivec3(cellCount.xyz) - 1);                                      \
-    for (int z = low.z; z <= high.z; ++z)                                                      \
-        for (int y = low.y; y <= high.y; ++y)                                                  \
-            for (int k = texelFetch(cellBegins, ballCellIndex(low.x, y, z)).x,                     \
-                     end = texelFetch(cellBegins, ballCellIndex(high.x, y, z) + 1).x;              \
-                 k < end; ++k)
-
-// The field and its derivative at eight distances.
-struct FieldSamples {
-    vec4 field[2];
-    vec4 slope[2];
+// A part of a ray in a cell. Its balls are `count` from the place `first` in cellNumbers on or, if the cell is on one
+// side of the threshold, those of the cells around.
+struct RayPart {
+    float from;
+    float to;
+    ivec3 cell;
+    int first;
+    int count;
 };
 
-FieldSamples sampleField(ivec3 cell, vec3 origin, vec3 direction, vec4 distances[2]) {
-    FieldSamples found;
-    found.field[0] = found.field[1] = found.slope[0] = found.slope[1] = vec4(0.0);
-    FOR_BALLS_NEAR(cell) {
-        vec4 ball = texelFetch(cellBalls, kBallTexels * k);
-        mat3 form = formOf(k);
+// The field and its derivative at four distances.
+struct FieldSamples {
+    vec4 field;
+    vec4 slope;
+};
+
+FieldSamples sampleField(RayPart part, vec3 origin, vec3 direction, vec4 distances) {
+    FieldSamples found = FieldSamples(vec4(0.0), vec4(0.0));
+    for (int k = part.first; k < part.first + part.count; ++k) {
+        int index = numberOf(k);
+        vec4 ball = texelFetch(cellBalls, kBallTexels * index);
+        mat3 form = formOf(index);
         vec3 toCenter = ball.xyz - origin;
         vec3 turned = form * direction;
         float square = dot(direction, turned);
@@ -71,100 +82,101 @@ FieldSamples sampleField(ivec3 cell, vec3 origin, vec3 direction, vec4 distances
         vec3 off = toCenter - direction * closest;
         float w = ball.w - dot(off, form * off);
         if (w <= 0.0) continue;
-        for (int group = 0; group < 2; ++group) {
-            vec4 along = distances[group] - closest;
-            vec4 root = max(w - square * along * along, 0.0);
-            found.field[group] += root * root;
-            found.slope[group] -= 4.0 * square * root * along;
-        }
+        vec4 along = distances - closest;
+        vec4 root = max(w - square * along * along, 0.0);
+        found.field += root * root;
+        found.slope -= 4.0 * square * root * along;
     }
     return found;
 }
 
-// The index of the first true one of eight; 8 if none is.
-int firstOf(bvec4 a, bvec4 b) {
-    return a.x ? 0 : a.y ? 1 : a.z ? 2 : a.w ? 3 : b.x ? 4 : b.y ? 5 : b.z ? 6 : b.w ? 7 : 8;
-}
-
+// The index of the first of four samples that is across the threshold; 4 if none is.
 int firstAcross(FieldSamples at, bool isInside) {
-    vec4 limit = vec4(castField.x);
-    return isInside ? firstOf(lessThan(at.field[0], limit), lessThan(at.field[1], limit))
-                    : firstOf(greaterThanEqual(at.field[0], limit), greaterThanEqual(at.field[1], limit));
-}
-
-// Eight distances that divide an interval into equal parts, of which the last one ends it.
-void divide(float from, float to, float parts, out vec4 distances[2]) {
-    float share = (to - from) / parts;
-    distances[0] = from + share * vec4(1.0, 2.0, 3.0, 4.0);
-    distances[1] = from + share * vec4(5.0, 6.0, 7.0, 8.0);
+    bvec4 isBelow = lessThan(at.field, vec4(castField.x));
+    bvec4 isAcross = isInside ? isBelow : not(isBelow);
+    return isAcross.x ? 0 : isAcross.y ? 1 : isAcross.z ? 2 : isAcross.w ? 3 : 4;
 }
 
 // The distance between two at which the field crosses the threshold, the first of them being on the ray's side.
-float refinedCrossing(ivec3 cell, vec3 origin, vec3 direction, float from, float to, bool isInside) {
-    for (int pass = 0; pass < 4; ++pass) {
-        vec4 distances[2];
-        divide(from, to, 9.0, distances);
-        int first = firstAcross(sampleField(cell, origin, direction, distances), isInside);
-        float part = (to - from) / 9.0;
-        to = first < 8 ? from + part * float(first + 1) : to;
-        from = to - part;
+float refinedCrossing(RayPart part, vec3 origin, vec3 direction, float from, float to, bool isInside) {
+    for (int pass = 0; pass < 5; ++pass) {
+        float share = (to - from) / 5.0;
+        FieldSamples at = sampleField(part, origin, direction, from + share * vec4(1.0, 2.0, 3.0, 4.0));
+        int first = firstAcross(at, isInside);
+        to = first < 4 ? from + share * float(first + 1) : to;
+        from = to - share;
     }
     return 0.5 * (from + to);
 }
 
-// The distance at which the ray crosses the threshold within a cell.
-float crossingInCell(ivec3 cell, vec3 origin, vec3 direction, float from, float to, bool isInside) {
+// What is known of the field where a part of a ray begins.
+struct FieldStart {
+    bool isKnown;  // whether it is on the ray's side
+    float slope;   // 0 if it has not been sampled
+    float field;
+};
+
+// The distance at which the ray crosses the threshold within a subcell.
+float crossingInSubcell(RayPart part, vec3 origin, vec3 direction, bool isInside, inout FieldStart start) {
     float sign = isInside ? -1.0 : 1.0;
-    float begin = from;
-    float lastSlope = 0.0;
-    float lastField = isInside ? 1.0e30 : 0.0;
-    // At first the beginning itself is a sample.
-    float next = from - castField.y;
-    while (next < to) {
-        vec4 distances[2];
-        divide(next, next + 8.0 * castField.y, 8.0, distances);
-        distances[0] = min(distances[0], to);
-        distances[1] = min(distances[1], to);
-        FieldSamples at = sampleField(cell, origin, direction, distances);
-        for (int k = 0; k < 8; ++k) {
-            float distance = distances[k >> 2][k & 3];
-            float field = at.field[k >> 2][k & 3];
-            float slope = at.slope[k >> 2][k & 3];
-            if (isInside ? field < castField.x : field >= castField.x)
-                return distance <= from ? from : refinedCrossing(cell, origin, direction, begin, distance, isInside);
+    float begin = part.from;
+    if (!start.isKnown) {
+        FieldSamples at = sampleField(part, origin, direction, vec4(begin));
+        if (firstAcross(at, isInside) < 4) return begin;
+        start = FieldStart(true, at.slope.x, at.field.x);
+    }
+    while (begin < part.to) {
+        float share = min(castField.y, 0.25 * (part.to - begin));
+        vec4 distances = begin + share * vec4(1.0, 2.0, 3.0, 4.0);
+        FieldSamples at = sampleField(part, origin, direction, distances);
+        for (int k = 0; k < 4; ++k) {
+            if (isInside ? at.field[k] < castField.x : at.field[k] >= castField.x)
+                return refinedCrossing(part, origin, direction, begin, distances[k], isInside);
             // Where the field turns back between two samples it may have been across: at the secant of its slopes.
-            if (sign * lastSlope > 0.0 && sign * slope < 0.0) {
-                float turn = (distance - begin) * (lastSlope / (lastSlope - slope));
-                float extreme = lastField + 0.5 * lastSlope * turn;
+            if (sign * start.slope > 0.0 && sign * at.slope[k] < 0.0) {
+                float turn = (distances[k] - begin) * (start.slope / (start.slope - at.slope[k]));
+                float extreme = start.field + 0.5 * start.slope * turn;
                 if (isInside ? extreme < castField.x : extreme >= castField.x)
-                    return refinedCrossing(cell, origin, direction, begin, begin + turn, isInside);
+                    return refinedCrossing(part, origin, direction, begin, begin + turn, isInside);
             }
-            begin = distance;
-            lastSlope = slope;
-            lastField = field;
+            begin = distances[k];
+            start.slope = at.slope[k];
+            start.field = at.field[k];
         }
-        next += 8.0 * castField.y;
+        if (share < castField.y) break;
     }
     return kNoCrossing;
 }
 
-FieldCrossing fieldSurfaceAt(ivec3 cell, vec3 point, vec3 direction, float distance) {
+void addBall(inout FieldCrossing found, inout float kernels, int k, vec3 point) {
+    vec4 ball = texelFetch(cellBalls, kBallTexels * k);
+    vec3 off = point - ball.xyz;
+    vec3 turned = formOf(k) * off;
+    float root = ball.w - dot(off, turned);
+    if (root <= 0.0) return;
+    found.normal += root * turned;
+    found.color += root * root * texelFetch(cellBalls, kBallTexels * k + 1).rgb;
+    kernels += root * root;
+#ifdef PARTICLE_SKY
+    uvec4 words = texelFetch(cellSky, k);
+    found.skyPlus += root * root * unpackSky(words.y);
+    found.skyMinus += root * root * unpackSky(words.z);
+#endif
+}
+
+FieldCrossing fieldSurfaceAt(RayPart part, vec3 point, vec3 direction, float distance) {
     FieldCrossing found = FieldCrossing(distance, vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
     float kernels = 0.0;
-    FOR_BALLS_NEAR(cell) {
-        vec4 ball = texelFetch(cellBalls, kBallTexels * k);
-        vec3 off = point - ball.xyz;
-        vec3 turned = formOf(k) * off;
-        float root = ball.w - dot(off, turned);
-        if (root <= 0.0) continue;
-        found.normal += root * turned;
-        found.color += root * root * texelFetch(cellBalls, kBallTexels * k + 1).rgb;
-        kernels += root * root;
-#ifdef PARTICLE_SKY
-        uvec4 words = texelFetch(cellSky, k);
-        found.skyPlus += root * root * unpackSky(words.y);
-        found.skyMinus += root * root * unpackSky(words.z);
-#endif
+    for (int k = part.first; k < part.first + part.count; ++k) addBall(found, kernels, numberOf(k), point);
+    if (part.count <= 0) {
+        ivec3 low = max(part.cell - 1, ivec3(0));
+        ivec3 high = min(part.cell + 1, ivec3(cellCount.xyz) - 1);
+        for (int z = low.z; z <= high.z; ++z)
+            for (int y = low.y; y <= high.y; ++y)
+                for (int k = numberOf(kFirstBegin + ballCellIndex(low.x, y, z)),
+                         end = numberOf(kFirstBegin + ballCellIndex(high.x, y, z) + 1);
+                     k < end; ++k)
+                    addBall(found, kernels, k, point);
     }
     float square = dot(found.normal, found.normal);
     found.normal = square > 0.0 ? found.normal * inversesqrt(square) : -direction;
@@ -175,31 +187,94 @@ FieldCrossing fieldSurfaceAt(ivec3 cell, vec3 point, vec3 direction, float dista
     return found;
 }
 
+// A walk through the cells of a grid (Amanatides and Woo 1987).
+struct GridWalk {
+    ivec3 cell;
+    vec3 next;     // distances at which the ray leaves the cell along each axis
+    vec3 spacing;  // between such distances
+    ivec3 steps;
+    float from;    // distances at which the ray enters the cell and leaves the grid
+    float last;
+};
+
+// @param inverse  1 / direction, finite
+GridWalk gridWalk(vec3 low, float side, ivec3 count, vec3 origin, vec3 direction, vec3 inverse, float from, float to) {
+    GridWalk walk;
+    vec3 a = (low - origin) * inverse;
+    vec3 b = a + side * vec3(count) * inverse;
+    vec3 near = min(a, b);
+    vec3 far = max(a, b);
+    walk.from = max(from, max(near.x, max(near.y, near.z)));
+    walk.last = min(to, min(far.x, min(far.y, far.z)));
+    walk.steps = ivec3(sign(inverse));
+    walk.spacing = abs(side * inverse);
+    walk.cell = clamp(ivec3((origin + walk.from * direction - low) / side), ivec3(0), count - 1);
+    walk.next = a + vec3(walk.cell + max(walk.steps, 0)) * (side * inverse);
+    return walk;
+}
+
+float endOfCell(GridWalk walk) {
+    return max(min(walk.last, min(walk.next.x, min(walk.next.y, walk.next.z))), walk.from);
+}
+
+void goOn(inout GridWalk walk, ivec3 count) {
+    float end = endOfCell(walk);
+    int axis = walk.next.x <= walk.next.y ? (walk.next.x <= walk.next.z ? 0 : 2) : (walk.next.y <= walk.next.z ? 1 : 2);
+    walk.cell[axis] += walk.steps[axis];
+    walk.next[axis] += walk.spacing[axis];
+    walk.from = walk.cell[axis] < 0 || walk.cell[axis] >= count[axis] ? walk.last : end;
+}
+
+// The distance at which a ray crosses the threshold in a block, the cell of a part. Sets the part to that in which it
+// does.
+float crossingInBlock(inout RayPart part, int block, vec3 origin, vec3 direction, vec3 inverse, bool isInside,
+                      inout FieldStart start) {
+    int along = numberOf(0);
+    ivec3 count = ivec3(along);
+    int subcells = numberOf(2) + 2 * block * along * along * along;
+    float side = cellGrid.w / float(along);
+    vec3 low = cellGrid.xyz + cellGrid.w * vec3(part.cell);
+    GridWalk walk = gridWalk(low, side, count, origin, direction, inverse, part.from, part.to);
+    for (; walk.from < walk.last; goOn(walk, count)) {
+        int subcell = subcells + 2 * ((walk.cell.z * along + walk.cell.y) * along + walk.cell.x);
+        part.count = numberOf(subcell + 1);
+        part.from = walk.from;
+        part.to = endOfCell(walk);
+        if (part.count > 0) {
+            part.first = numberOf(3) + numberOf(subcell);
+            float distance = crossingInSubcell(part, origin, direction, isInside, start);
+            if (distance < kNoCrossing) return distance;
+        } else {
+            if ((part.count == kAllInside) != isInside) return walk.from;
+            start = FieldStart(true, 0.0, 0.0);
+        }
+    }
+    return kNoCrossing;
+}
+
 // The first point of a part of a ray at which the field is on the other side of the threshold than the ray.
 FieldCrossing findCrossing(vec3 origin, vec3 direction, float from, float to, bool isInside) {
     FieldCrossing none = FieldCrossing(kNoCrossing, vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
     if (cellCount.w == 0.0) return none;
     vec3 inverse = 1.0 / mix(max(direction, 1.0e-30), min(direction, -1.0e-30), lessThan(direction, vec3(0.0)));
-    vec3 a = (cellGrid.xyz - origin) * inverse;
-    vec3 b = (cellGrid.xyz + cellGrid.w * cellCount.xyz - origin) * inverse;
-    vec3 near = min(a, b);
-    vec3 far = max(a, b);
-    float at = max(from, max(near.x, max(near.y, near.z)));
-    float last = min(to, min(far.x, min(far.y, far.z)));
-    ivec3 steps = ivec3(sign(inverse));
-    ivec3 cell = clamp(ivec3((origin + at * direction - cellGrid.xyz) / cellGrid.w), ivec3(0), ivec3(cellCount.xyz) - 1);
-    while (at < last) {
-        vec3 sides = (cellGrid.xyz + vec3(cell + max(steps, 0)) * cellGrid.w - origin) * inverse;
-        float end = max(min(last, min(sides.x, min(sides.y, sides.z))), at);
-        float distance = crossingInCell(cell, origin, direction, at, end, isInside);
-        if (distance < kNoCrossing) return fieldSurfaceAt(cell, origin + distance * direction, direction, distance);
-        int axis = sides.x <= sides.y && sides.x <= sides.z ? 0 : sides.y <= sides.z ? 1 : 2;
-        cell[axis] += steps[axis];
-        if (cell[axis] < 0 || cell[axis] >= int(cellCount[axis])) break;
-        at = end;
+    ivec3 count = ivec3(cellCount.xyz);
+    int blocks = numberOf(1);
+    FieldStart start = FieldStart(false, 0.0, 0.0);
+    GridWalk walk = gridWalk(cellGrid.xyz, cellGrid.w, count, origin, direction, inverse, from, to);
+    for (; walk.from < walk.last; goOn(walk, count)) {
+        int block = numberOf(blocks + ballCellIndex(walk.cell.x, walk.cell.y, walk.cell.z));
+        RayPart part = RayPart(walk.from, endOfCell(walk), walk.cell, 0, block);
+        float distance = kNoCrossing;
+        if (block >= 0) {
+            distance = crossingInBlock(part, block, origin, direction, inverse, isInside, start);
+        } else {
+            if ((block == kAllInside) != isInside) distance = walk.from;
+            start = FieldStart(true, 0.0, 0.0);
+        }
+        if (distance < kNoCrossing) return fieldSurfaceAt(part, origin + distance * direction, direction, distance);
     }
     // Outside of the grid is no ball: a ray that is inside leaves the metaballs where the grid ends.
-    none.distance = isInside && last < to ? max(last, from) : kNoCrossing;
+    none.distance = isInside && walk.last < to ? max(walk.last, from) : kNoCrossing;
     none.normal = -direction;
     return none;
 }
