@@ -94,6 +94,7 @@ TEST_CASE("Rays of any direction cross the surface of metaballs where the oracle
         const float threshold = render::surfaceThreshold(view.field);
         const render::FieldCells sides = render::fieldCells(cells, threshold);
         render::BallCache cache;
+        cache.prepareFor(sides);
         const render::CastField field{cells, sides, threshold, 0.08F, cache};
         std::mt19937 random(5);
         const auto uniform = [&random] { return 2.0F * static_cast<float>(random()) / 4294967296.0F - 1.0F; };

@@ -159,17 +159,37 @@ class CrossingSearch {
         return setFound(refined(balls, last_, turn), &balls);
     }
 
-    /// A sample as near to where the field has the threshold between two samples as matters: Newton's steps from the
-    /// far one, halved where they leave the interval.
+    /// Where the cubic through the values and slopes of two samples on both sides of the threshold crosses it.
+    float cubicCrossing(const FieldOnRay& near, const FieldOnRay& far) const {
+        const float length = far.distance - near.distance;
+        const float rise = far.field - near.field;
+        const float a = near.slope * length - rise;
+        const float b = rise - far.slope * length;
+        // With t from 0 to 1 it is near.field + rise t + t (1 - t) (a (1 - t) + b t).
+        float t = std::clamp((field_.threshold - near.field) / rise, 0.0F, 1.0F);
+        for (int k = 0; k < 3; ++k) {
+            const float rest = 1.0F - t;
+            const float bend = a * rest + b * t;
+            const float value = near.field + rise * t + t * rest * bend - field_.threshold;
+            const float slope = rise + (rest - t) * bend + t * rest * (b - a);
+            t -= value / slope;
+        }
+        return near.distance + length * t;
+    }
+
+    /// A sample as near to where the field has the threshold between two samples as matters: Newton's steps, halved
+    /// where they leave the interval.
     FieldOnRay refined(const BallSet& balls, FieldOnRay near, FieldOnRay far) const {
         constexpr int kMostSteps = 16;  // enough for bisection alone to reach a float's precision
         // The step that follows is the square of this, and normals are off by as much as radii are longer than steps.
         const float precise = 1e-3F * (far.distance - near.distance);
         FieldOnRay at = far;
         for (int k = 0; k < kMostSteps; ++k) {
-            const float next = at.distance - (at.field - field_.threshold) / at.slope;
+            const bool isCubic = k == 0 && near.slope != kNotSampled;
+            const float next =
+                isCubic ? cubicCrossing(near, far) : at.distance - (at.field - field_.threshold) / at.slope;
             const bool isWithin = next > near.distance && next < far.distance;
-            if (isWithin && std::abs(next - at.distance) < precise) {
+            if (isWithin && !isCubic && std::abs(next - at.distance) < precise) {
                 at.distance = next;
                 break;
             }

@@ -74,8 +74,12 @@ class GridWalk {
  private:
     /// Finds the side through which the ray leaves the cell.
     void findEnd() {
-        axis_ = next_.x <= next_.y ? (next_.x <= next_.z ? 0 : 2) : (next_.y <= next_.z ? 1 : 2);
-        to_ = std::clamp(next_[axis_], from_, last_);
+        // Without branches, which no processor could predict.
+        const int ofFirstTwo = static_cast<int>(next_.y < next_.x);
+        const float nearer = std::min(next_.x, next_.y);
+        const int isThird = static_cast<int>(next_.z < nearer);
+        axis_ = 2 * isThird + (1 - isThird) * ofFirstTwo;
+        to_ = std::max(std::min(std::min(nearer, next_.z), last_), from_);
     }
 
     float from_, to_ = 0.0F, last_;

@@ -81,7 +81,7 @@ void setEnd(const CameraFrame& frame, const ShadingPoints& points, std::size_t k
 void findSeenThrough(const PreparedView& view, const ShadingGeometry& geometry, const ShadingPoints& points,
                      const LightVisibility* visibility, SeenThrough& behind) {
     thread_local BallCache cache;
-    cache.clear();
+    cache.prepareFor(view.fieldCells);
     behind.ends.count = 0;
     for (std::size_t k = 0; k < points.count; ++k) {
         const glm::vec3 direction = rayDirection(geometry.frame, points.x[k], points.y[k]);

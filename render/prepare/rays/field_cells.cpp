@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <span>
 
@@ -297,7 +298,9 @@ void joinLists(std::span<const BlockList> lists, FieldCells& to) {
 }  // namespace
 
 FieldCells fieldCells(const BallCells& cells, float threshold) {
+    static std::atomic<std::uint64_t> fieldCount = 0;
     FieldCells found;
+    found.id = ++fieldCount;
     if (cells.empty()) return found;
     found.blocks.resize(cellIndex(cells.count, 0, 0, cells.count.z));
     found.along = subcellsAlong(cells);

@@ -24,7 +24,8 @@ struct Subcell {
 
 /// All blocks, which are the cells of BallCells, and the subcells of those that the surface may pass through.
 struct FieldCells {
-    int along = 4;  ///< number of subcells along each side of a block, a power of two
+    std::uint64_t id = 0;  ///< another one for each field in the program, above 0; copies have the same
+    int along = 4;         ///< number of subcells along each side of a block, a power of two
     std::vector<std::int32_t>
         blocks;                     ///< of each block: kAllInside, kAllOutside, or its number among those with subcells
     std::vector<Subcell> subcells;  ///< subcellsOfBlock() for each block, x fastest
