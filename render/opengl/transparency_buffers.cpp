@@ -56,7 +56,7 @@ void TransparencyBuffers::uploadBalls(const PreparedView& view) {
     tbb::parallel_for(std::size_t{0}, cells.particle.size(), [&](std::size_t k) {
         const auto particle = static_cast<std::size_t>(cells.particle[k]);
         balls[texels * k] = {cells.x[k], cells.y[k], cells.z[k], cells.peak[k]};
-        balls[texels * k + 1] = {view.view->particles[particle].color, cells.slope[k]};
+        balls[texels * k + 1] = {view.view->particles[particle].color, cells.squaredSlope[k]};
         if (cells.isAnisotropic()) {
             const SymmetricMatrix<float> form = cells.formOf(k);
             balls[texels * k + 2] = {form.xx, form.yy, form.zz, form.xy};

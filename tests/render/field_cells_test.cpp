@@ -51,8 +51,7 @@ render::View heap(Skin skin, unsigned seed) {
 /// Root of a ball's kernel at a point relative to the eye, in double precision.
 double rootAt(const render::BallCells& cells, std::size_t k, const glm::dvec3& point) {
     const glm::dvec3 off = point - glm::dvec3(cells.x[k], cells.y[k], cells.z[k]);
-    if (!cells.isAnisotropic())
-        return double(cells.peak[k]) - glm::dot(off, off) * double(cells.slope[k]) * double(cells.slope[k]);
+    if (!cells.isAnisotropic()) return double(cells.peak[k]) - glm::dot(off, off) * double(cells.squaredSlope[k]);
     const render::SymmetricMatrix<float> m = cells.formOf(k);
     const glm::dvec3 turned{double(m.xx) * off.x + double(m.xy) * off.y + double(m.xz) * off.z,
                             double(m.xy) * off.x + double(m.yy) * off.y + double(m.yz) * off.z,

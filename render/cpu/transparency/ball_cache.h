@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "render/prepare/cells/tiles.h"
 #include "render/prepare/rays/ball_set.h"
 #include "render/prepare/rays/field_cells.h"
 
@@ -32,8 +33,8 @@ class BallCache {
     }
 
     /// The balls of a cell and of those around it.
-    /// @param index  number of the cell, x fastest
-    const BallSet& around(const BallCells& cells, glm::ivec3 cell, std::size_t index) {
+    const BallSet& around(const BallCells& cells, glm::ivec3 cell) {
+        const std::size_t index = cellIndex(cells.count, cell.x, cell.y, cell.z);
         Entry& entry = entryOf(-2 - static_cast<std::int64_t>(index));
         if (entry.isNew) entry.balls.assignAround(cells, cell);
         return entry.balls;

@@ -71,14 +71,18 @@ template <bool kIsAnisotropic>
 class CrossingSearch {
  public:
     CrossingSearch(const CastField& field, const RayPart& ray, bool isInside)
-        : field_(field), ray_(ray), isInside_(isInside), inverse_(inverseOf(ray.direction)) {}
+        : field_(field),
+          ray_(ray),
+          isInside_(isInside),
+          inverse_(inverseOf(ray.direction)),
+          inverseStep_(1.0F / field.step) {}
 
     SurfacePoint find() {
         const BallCells& cells = field_.cells;
         GridWalk walk({cells.low, cells.side, cells.count}, ray_, inverse_);
         for (; !walk.isOver(); walk.next()) {
-            block_ = walk.index();
-            const std::int32_t block = field_.sides.blocks[block_];
+            cell_ = walk.cell();
+            const std::int32_t block = field_.sides.blocks[walk.index()];
             if (block >= 0 ? crossesBlock(walk, block) : crossesAll(walk.from(), block)) return found_;
         }
         // Outside of the grid is no ball: a ray that is inside leaves the metaballs where the grid ends.
@@ -87,19 +91,12 @@ class CrossingSearch {
     }
 
  private:
-    /// The place of the block in the grid.
-    glm::ivec3 blockPlace() const {
-        const auto columns = static_cast<std::size_t>(field_.cells.count.x);
-        const auto rows = static_cast<std::size_t>(field_.cells.count.y);
-        return {block_ % columns, block_ / columns % rows, block_ / columns / rows};
-    }
-
     /// Passes a block or subcell that is on one side of the threshold. @return whether that is not the ray's
     bool crossesAll(float from, std::int32_t side) {
         isFirst_ = false;
         last_.slope = kNotSampled;
         if ((side == kAllInside) == isInside_) return false;
-        const BallSet& balls = field_.cache.around(field_.cells, blockPlace(), block_);
+        const BallSet& balls = field_.cache.around(field_.cells, cell_);
         return setFound(sampleAt<kIsAnisotropic>(balls, ray_, from), &balls);
     }
 
@@ -107,7 +104,7 @@ class CrossingSearch {
     bool crossesBlock(const GridWalk& walk, std::int32_t block) {
         const float side = field_.cells.side;
         const int along = field_.sides.along;
-        const CubeGrid grid{field_.cells.low + side * glm::vec3(blockPlace()), side / static_cast<float>(along),
+        const CubeGrid grid{field_.cells.low + side * glm::vec3(walk.cell()), side / static_cast<float>(along),
                             glm::ivec3(along)};
         const std::size_t first = field_.sides.subcellsOfBlock() * static_cast<std::size_t>(block);
         const RayPart part{ray_.origin, ray_.direction, walk.from(), walk.to()};
@@ -129,7 +126,7 @@ class CrossingSearch {
         }
         if (last_.slope == kNotSampled) last_.distance = walk.from();
         const float length = walk.to() - walk.from();
-        const int steps = static_cast<int>(length / field_.step) + 1;
+        const int steps = static_cast<int>(length * inverseStep_) + 1;
         const float step = length / static_cast<float>(steps);
         for (int k = 1; k <= steps; ++k) {
             const float at = k == steps ? walk.to() : walk.from() + step * static_cast<float>(k);
@@ -212,9 +209,10 @@ class CrossingSearch {
     const RayPart& ray_;
     bool isInside_;
     glm::vec3 inverse_;
-    std::size_t block_ = 0;  // number of the block that the ray is in
-    bool isFirst_ = true;    // whether nothing is known of the field on the ray yet
-    FieldOnRay last_;        // on the ray's side
+    float inverseStep_;
+    glm::ivec3 cell_{0};   // that the ray is in
+    bool isFirst_ = true;  // whether nothing is known of the field on the ray yet
+    FieldOnRay last_;      // on the ray's side
     SurfacePoint found_;
 };
 
@@ -242,8 +240,8 @@ void findShares(const BallCells& cells, const BallSet& balls, glm::vec3 point, s
     for (std::size_t k = 0; k < balls.size(); ++k) {
         const auto ball = static_cast<std::size_t>(balls.index(k));
         const glm::vec3 off = point - glm::vec3(cells.x[ball], cells.y[ball], cells.z[ball]);
-        const float drop = cells.isAnisotropic() ? dot(off, cells.formOf(ball).times(off))
-                                                 : dot(off, off) * (cells.slope[ball] * cells.slope[ball]);
+        const float drop =
+            cells.isAnisotropic() ? dot(off, cells.formOf(ball).times(off)) : dot(off, off) * cells.squaredSlope[ball];
         const float root = cells.peak[ball] - drop;
         if (root > 0.0F) shares.push_back({cells.particle[ball], root * root});
     }

@@ -45,8 +45,10 @@ class GridWalk {
         const glm::ivec3 stride(1, grid.count.x, grid.count.x * grid.count.y);
         for (int axis = 0; axis < 3; ++axis) {
             const int cell = std::clamp(static_cast<int>(first[axis]), 0, grid.count[axis] - 1);
+            cell_[axis] = cell;
             const bool isDown = inverse[axis] < 0.0F;
             index_ += cell * stride[axis];
+            sign_[axis] = isDown ? -1 : 1;
             step_[axis] = isDown ? -stride[axis] : stride[axis];
             left_[axis] = isDown ? cell : grid.count[axis] - 1 - cell;
             spacing_[axis] = grid.side * std::abs(inverse[axis]);
@@ -56,6 +58,7 @@ class GridWalk {
     }
 
     bool isOver() const { return !(from_ < last_); }
+    glm::ivec3 cell() const { return cell_; }
     /// Number of the cell, x fastest.
     std::size_t index() const { return static_cast<std::size_t>(index_); }
     /// Distances at which the ray enters the cell and leaves it.
@@ -66,6 +69,7 @@ class GridWalk {
 
     void next() {
         from_ = left_[axis_]-- > 0 ? to_ : last_;
+        cell_[axis_] += sign_[axis_];
         index_ += step_[axis_];
         next_[axis_] += spacing_[axis_];
         findEnd();
@@ -85,8 +89,10 @@ class GridWalk {
     float from_, to_ = 0.0F, last_;
     glm::vec3 next_{0.0F};     // where the ray leaves the cell along each axis
     glm::vec3 spacing_{0.0F};  // between such places
-    glm::ivec3 step_{0};       // from the index of a cell to that of the next along each axis
-    glm::ivec3 left_{0};       // number of cells that follow along each axis
+    glm::ivec3 cell_{0};
+    glm::ivec3 sign_{0};  // 1 or -1: from a cell to the next along each axis
+    glm::ivec3 step_{0};  // from the index of a cell to that of the next along each axis
+    glm::ivec3 left_{0};  // number of cells that follow along each axis
     int index_ = 0;
     int axis_ = 0;  // along which the ray leaves the cell
 };

@@ -6,8 +6,8 @@
 // the first ball of each cell, x fastest; the side of each cell, or the number of its subcells; two numbers a subcell,
 // its first place in the last list and its side, or the number of its balls; the balls of subcells.
 uniform isamplerBuffer cellNumbers;
-// Two texels a ball: center (m) and peak, color and slope (1/m). Two more for an ellipsoid: the entries xx, yy, zz, xy,
-// xz and yz of its form (1/m^2).
+// Two texels a ball: center (m) and peak, color and squared slope (1/m^2). Two more for an ellipsoid: the entries xx, yy,
+// zz, xy, xz and yz of its form (1/m^2).
 uniform samplerBuffer cellBalls;
 uniform usamplerBuffer cellSky;     // of each ball, as sphereAttributes
 uniform vec4 cellGrid;              // corner of the first cell relative to the eye (m), side of a cell (m)
@@ -48,8 +48,7 @@ mat3 formOf(int ball) {
 const int kBallTexels = 2;
 
 mat3 formOf(int ball) {
-    float slope = texelFetch(cellBalls, kBallTexels * ball + 1).w;
-    return mat3(slope * slope);
+    return mat3(texelFetch(cellBalls, kBallTexels * ball + 1).w);
 }
 #endif
 

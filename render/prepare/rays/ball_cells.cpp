@@ -63,7 +63,8 @@ BallCells ballCells(const View& view, std::span<const SkinBall> balls, glm::vec3
     cells.begin = std::move(order.begin);
     cells.particle.assign(order.items.begin(), order.items.end());
     const std::size_t size = cells.particle.size() + kMostLanes;
-    for (std::vector<float>* values : {&cells.x, &cells.y, &cells.z, &cells.peak, &cells.slope}) values->resize(size);
+    for (std::vector<float>* values : {&cells.x, &cells.y, &cells.z, &cells.peak, &cells.squaredSlope})
+        values->resize(size);
     if (view.field.skin == Skin::anisotropic)
         for (std::vector<float>& values : cells.form) values.resize(size);
     for (std::size_t k = 0; k < order.items.size(); ++k) {
@@ -74,7 +75,7 @@ BallCells ballCells(const View& view, std::span<const SkinBall> balls, glm::vec3
         cells.y[k] = center.y;
         cells.z[k] = center.z;
         cells.peak[k] = kernel.peak;
-        cells.slope[k] = kernel.slope;
+        cells.squaredSlope[k] = kernel.slope * kernel.slope;
         if (view.field.skin == Skin::anisotropic) setForm(shapeOf(ball).form, k, cells);
     }
     return cells;

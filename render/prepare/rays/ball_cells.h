@@ -23,7 +23,8 @@ struct BallCells {
     glm::ivec3 count{0};               ///< number of cells along each axis; 0 without balls
     std::vector<std::uint32_t> begin;  ///< sorted index of each cell's first ball; at last the number of balls
     std::vector<float> x, y, z;        ///< centers, by sorted index, m
-    std::vector<float> peak, slope;    ///< of the kernels, as in BallKernel
+    std::vector<float> peak;           ///< of the kernels, as in BallKernel
+    std::vector<float> squaredSlope;   ///< square of BallKernel's slope, 1/m^2
     /// Of an anisotropic skin the forms of the ellipsoids, entry by entry, in the order of SymmetricMatrix; empty else.
     std::array<std::vector<float>, 6> form;
     std::vector<std::int32_t> particle;  ///< index in the view of the particle that each ball stands for

@@ -35,29 +35,25 @@ class BallSet {
             values_.resize(kBallValues * stride_);
         }
         index_.resize(count);
-        for (std::size_t k = 0; k < count; ++k) {
-            index_[k] = static_cast<std::int32_t>(indexOf(k));
-            copy(cells, static_cast<std::size_t>(index_[k]), k);
-        }
-        for (std::size_t value = 0; value < kBallValues; ++value)
-            std::fill_n(&values_[value * stride_] + count, whole - count, value == kBallPeak ? -1.0F : 0.0F);
+        for (std::size_t k = 0; k < count; ++k) index_[k] = static_cast<std::int32_t>(indexOf(k));
+        copy(cells.x, kBallX, whole);
+        copy(cells.y, kBallY, whole);
+        copy(cells.z, kBallZ, whole);
+        copy(cells.peak, kBallPeak, whole);
+        std::fill_n(&values_[kBallPeak * stride_] + count, whole - count, -1.0F);
+        if (!cells.isAnisotropic()) return copy(cells.squaredSlope, kBallForm, whole);
+        for (std::size_t k = 0; k < cells.form.size(); ++k) copy(cells.form[k], kBallForm + k, whole);
     }
 
     /// Takes all balls that lie in a cell or in one of those around it: all that reach a point of it.
     void assignAround(const BallCells& cells, glm::ivec3 cell);
 
  private:
-    void copy(const BallCells& cells, std::size_t from, std::size_t to) {
-        float* const at = values_.data() + to;
-        at[kBallX * stride_] = cells.x[from];
-        at[kBallY * stride_] = cells.y[from];
-        at[kBallZ * stride_] = cells.z[from];
-        at[kBallPeak * stride_] = cells.peak[from];
-        if (!cells.isAnisotropic()) {
-            at[kBallForm * stride_] = cells.slope[from] * cells.slope[from];
-            return;
-        }
-        for (std::size_t k = 0; k < cells.form.size(); ++k) at[(kBallForm + k) * stride_] = cells.form[k][from];
+    /// Fills in a column, up to a whole number of blocks with 0.
+    void copy(const std::vector<float>& from, std::size_t column, std::size_t whole) {
+        float* const to = values_.data() + column * stride_;
+        for (std::size_t k = 0; k < index_.size(); ++k) to[k] = from[static_cast<std::size_t>(index_[k])];
+        std::fill(to + index_.size(), to + whole, 0.0F);
     }
 
     std::size_t stride_ = 0;  // between columns

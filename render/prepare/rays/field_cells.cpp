@@ -264,7 +264,7 @@ int subcellsAlong(const BallCells& cells) {
     for (std::size_t k = 0; k < cells.particle.size(); ++k) {
         const float squaredSlope = cells.isAnisotropic()
                                        ? (cells.form[0][k] + cells.form[1][k] + cells.form[2][k]) / 3.0F
-                                       : cells.slope[k] * cells.slope[k];
+                                       : cells.squaredSlope[k];
         sum += double(std::sqrt(cells.peak[k] / squaredSlope));
     }
     const float side = kShareOfReach * static_cast<float>(sum / static_cast<double>(cells.particle.size()));
