@@ -256,8 +256,9 @@ namespace {
 /// How many cells one task divides. Chosen: a task takes some tenths of a millisecond where all of them are mixed.
 constexpr std::size_t kCellsPart = 64;
 
-/// The number of subcells along a side of a block. Chosen: with twice as many, or half as many, pictures of the study's
-/// dam break take longer. Few balls that reach much farther than most make blocks larger, but not their subcells.
+/// The number of subcells along a side of a block. Measured on the study's dam break: with half as many pictures take
+/// twice as long, with twice as many those of a smooth skin as long, of an anisotropic one longer. Few balls that reach
+/// much farther than most make blocks larger, but not their subcells.
 int subcellsAlong(const BallCells& cells) {
     constexpr float kShareOfReach = 0.3F;
     double sum = 0.0;
