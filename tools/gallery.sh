@@ -55,10 +55,10 @@ if wanted keys; then
     variation "bd = 1, cr = 2" --set material.bd=1 --set material.cr=2
     variation "mass = 0.2" --set material.mass=0.2
     variation "finer" "${finer[@]}"
-    variation "spheres" --set look.style=spheres
-    variation "dry" --set look.specular=0 --set look.reflection=0 --set look.translucency=0
-    variation "metal" --set look.metal=1 --set look.reflection=2 --set look.mirror_top=[1.2,1.2,1.2]
-    variation "by speed" --set look.color_by=speed --set look.color_map=ember --set look.color_range=[0,4]
+    variation "spheres" --set look.style=spheres --set look.transparency=0
+    variation "dry" --set look.specular=0 --set look.reflection=0 --set look.transparency=0
+    variation "metal" --set look.metal=1 --set look.transparency=0 --set look.reflection=2 --set look.mirror_top=[1.2,1.2,1.2]
+    variation "by speed" --set look.transparency=0 --set look.color_by=speed --set look.color_map=ember --set look.color_range=[0,4]
     ffmpeg -v error -y -i "$work/variations-%02d.png" -vf tile=5x2:padding=4 -frames:v 1 -c:v libwebp -quality 85 docs/keys.webp
 fi
 
