@@ -197,7 +197,7 @@ package() {
     ' || fail "the package does not install, or its program does not start"
     local render renderer
     for renderer in cpu opengl; do
-        render="render liquid --renderer $renderer --frames 0-9 --size 320x180 --quiet -o frames-$renderer --video $renderer.mp4"
+        render="render measured/liquid --renderer $renderer --frames 0-9 --size 320x180 --quiet -o frames-$renderer --video $renderer.mp4"
         on_machine package globular $render || fail "the package's program does not render: $renderer"
         on_machine package-build globular/build/release/tools/globular $render ||
             fail "the build's program does not render: $renderer"

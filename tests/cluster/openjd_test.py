@@ -96,7 +96,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         frames = "0-5,8-14:2"
-        values = values_of(template, {"Scene": "liquid", "Folder": folder / "job", "Frames": frames, "FramesPerTask": 4,
+        values = values_of(template, {"Scene": "measured/liquid", "Folder": folder / "job", "Frames": frames, "FramesPerTask": 4,
                                       "Size": "160x90"})
         done = set()
         for step in template["steps"]:
@@ -104,7 +104,7 @@ def main():
             assert {each["dependsOn"] for each in step.get("dependencies", [])} <= done, "a step comes before another"
             run_step(step, values)
             done.add(step["name"])
-        run(["render", "liquid", "--frames", frames, "--size", "160x90", "-o", folder / "direct", "--video",
+        run(["render", "measured/liquid", "--frames", frames, "--size", "160x90", "-o", folder / "direct", "--video",
              folder / "direct.mp4"])
         for frame in frames_of(frames):
             name = f"frame-{frame:05}.png"

@@ -70,16 +70,16 @@ fixed() { echo "--set physics.stepper=$1 --set physics.step=$2"; }
 
 compare "figure-1 --frames 0-15" 1 6-
 compare "figure-1 --frames 0-15 $(fixed leapfrog 0.01)" 3
-compare "powder --frames 0-8" 4- 2
-compare "powder --frames 0-8 $(fixed velocity-verlet 0.004)" 6 1-
-compare "cascade --frames 0-6" 3-
-compare "cascade --frames 0-6 $(fixed symplectic-euler 0.002) --threads 2" 4
-compare "liquid --frames 0-2 --set resolution=0.5" 2- 6
-compare "liquid --frames 0-3 --set resolution=0.5 $(fixed leapfrog 0.004)" 3
-compare "liquid --frames 0-1 --set resolution=0.5 $(fixed implicit-damping 0.01)" 4
-compare "honey --frames 0-4 --set resolution=0.8 $(fixed linearly-implicit 0.01)" 2
-compare "honey --frames 0-6" 3
-compare "fountain --frames 0-72" 2  # long enough for the last frame to have an old neighbor list
+compare "measured/powder --frames 0-8" 4- 2
+compare "measured/powder --frames 0-8 $(fixed velocity-verlet 0.004)" 6 1-
+compare "measured/cascade --frames 0-6" 3-
+compare "measured/cascade --frames 0-6 $(fixed symplectic-euler 0.002) --threads 2" 4
+compare "measured/liquid --frames 0-2 --set resolution=0.5" 2- 6
+compare "measured/liquid --frames 0-3 --set resolution=0.5 $(fixed leapfrog 0.004)" 3
+compare "measured/liquid --frames 0-1 --set resolution=0.5 $(fixed implicit-damping 0.01)" 4
+compare "measured/honey --frames 0-4 --set resolution=0.8 $(fixed linearly-implicit 0.01)" 2
+compare "measured/honey --frames 0-6" 3
+compare "measured/fountain --frames 0-72" 2  # long enough for the last frame to have an old neighbor list
 compare "mixture.toml --set physics.precision=float" 3
 compare "mixture.toml $(fixed velocity-verlet 0.002) --format ply,vtp,lammps,extxyz" 4- 2
 grep -q '"deaths": [1-9]' one/run.json || fail "no particle has left the world of mixture.toml"
@@ -88,7 +88,7 @@ echo "$compared runs on several ranks have every byte of the same run in one pro
 # ---- checkpoints: four ranks, then two, then none ----
 rm -rf one several
 part() { # last frame, number of ranks or 0 for none, options...
-    local run=(cascade --frames "0-$1" "${@:3}")
+    local run=(measured/cascade --frames "0-$1" "${@:3}")
     alone "${run[@]}" -o one
     if [ "$2" -eq 0 ]; then alone "${run[@]}" -o several; else on_ranks "$2" "${run[@]}" -o several; fi
     same_run one several "cascade up to frame $1"
@@ -105,12 +105,12 @@ same_outcome() { # folders, what the second one is
         fail "$3 left something behind"
     fi
 }
-alone cascade --frames 0-12 -o whole
+alone measured/cascade --frames 0-12 -o whole
 same_outcome whole several "cascade on 4 ranks, then 2, then none"
 echo "a run on 4 ranks, resumed on 2 and then without MPI, has every byte of an undisturbed run, checkpoints included"
 
 # ---- ranks that are killed, and Ctrl-C ----
-scene=fountain
+scene=measured/fountain
 rm -rf whole several
 frames_in() { find "$1" -name 'particles-*.ply' | wc -l; }
 # Starts a run in the background that has far to go, and waits until it has made some frames.
@@ -187,12 +187,12 @@ refuse() { # exit status, arguments of simulate...
 printf 'title = "wrong"\nduration = -1\nfsp = 25\n[[body]]\nshape = "ball"\nradius = 1\ncenter = [0, 0, 0]\n' >wrong.toml
 refuse 2 wrong.toml
 refuse 2 missing.toml
-refuse 2 powder --nope
+refuse 2 measured/powder --nope
 code=0
 on_ranks 3 - -o several <mixture.toml 2>several.log || code=$?
 [ "$code $(errors_of several.log | wc -l)" = "2 1" ] || fail "standard input: status $code, $(cat several.log)"
 code=0
-on_ranks 2 powder --set 'physics.forces="reference"' -o several 2>several.log || code=$?
+on_ranks 2 measured/powder --set 'physics.forces="reference"' -o several 2>several.log || code=$?
 [ "$code $(errors_of several.log | wc -l)" = "2 1" ] || fail "every pair on ranks: status $code, $(cat several.log)"
 mkdir first second
 cp mixture.toml first
@@ -201,6 +201,6 @@ run=("$globular_mpi" simulate mixture.toml -o states)
 code=0
 timeout --kill-after=5 60 mpirun -np 1 -wdir "$work/first" "${run[@]}" : -np 1 -wdir "$work/second" "${run[@]}" 2>log || code=$?
 [ "$code $(grep -c '^error: rank 1: the scene differs ' log)" = "1 1" ] || fail "two scenes: status $code, $(cat log)"
-refuse 3 powder --frames 0-40 --set 'material[0].b1=1e12' $(fixed symplectic-euler 0.01) --set physics.wall=paper
+refuse 3 measured/powder --frames 0-40 --set 'material[0].b1=1e12' $(fixed symplectic-euler 0.01) --set physics.wall=paper
 same_run one several "a run that became unstable"
 echo "wrong input and an unstable run end with the errors and exit statuses of globular"

@@ -50,9 +50,9 @@ TEST_CASE("A scene with ten mistakes prints ten messages and exits with 2", "[to
 
 TEST_CASE("Flags and names that do not exist exit with 2 and say what was meant", "[tools]") {
     for (const char* arguments :
-         {"paint", "render", "render liquid --frames 9-3", "render liquid --frames 0-100000", "render liquid --size 12",
-          "render liquid --size 8x64", "render liquid --style blobs", "render liquid --set physics.stp=1",
-          "render no-such-scene", "render liquid --gl vulkan", "check no-such-file.toml", "figures 5", "--nonsense"}) {
+         {"paint", "render", "render measured/liquid --frames 9-3", "render measured/liquid --frames 0-100000", "render measured/liquid --size 12",
+          "render measured/liquid --size 8x64", "render measured/liquid --style blobs", "render measured/liquid --set physics.stp=1",
+          "render no-such-scene", "render measured/liquid --gl vulkan", "check no-such-file.toml", "figures 5", "--nonsense"}) {
         const auto outcome = run(arguments);
         INFO(arguments << ": " << outcome.err);
         CHECK(outcome.code == 2);
@@ -60,10 +60,10 @@ TEST_CASE("Flags and names that do not exist exit with 2 and say what was meant"
         CHECK(outcome.err.rfind("error: ", 0) == 0);
     }
     for (const char* number : {"1e400", "inf", "nan", "-1", "5s"})
-        CHECK(run("render liquid --frames 0 --checkpoint " + std::string(number)).err ==
+        CHECK(run("render measured/liquid --frames 0 --checkpoint " + std::string(number)).err ==
               "error: --checkpoint: " + std::string(number) + " must be a number >= 0\n");
     CHECK(run("check liqid").err.find("liquid") != std::string::npos);
-    CHECK(run("render liquid --gl vulkan").err.find("choose one of: osmesa, egl") != std::string::npos);
+    CHECK(run("render measured/liquid --gl vulkan").err.find("choose one of: osmesa, egl") != std::string::npos);
 }
 
 TEST_CASE("A label that cannot be drawn as it is written is warned of, on one line", "[tools]") {
@@ -85,10 +85,10 @@ TEST_CASE("A wrong word of the command line is named, with the nearest one that 
     CHECK(run("paint").err == "error: unknown command \"paint\"; see globular --help\n");
     CHECK(run("study").err == "error: missing command; see globular study --help\n");
     CHECK(run("study acuracy").err == "error: unknown command \"acuracy\", did you mean \"accuracy\"?\n");
-    CHECK(run("render liquid --sice 64x36").err == "error: unknown flag \"--sice\", did you mean \"--size\"?\n");
-    CHECK(run("check liquid solid").err == "error: unknown argument \"solid\"; see globular check --help\n");
+    CHECK(run("render measured/liquid --sice 64x36").err == "error: unknown flag \"--sice\", did you mean \"--size\"?\n");
+    CHECK(run("check measured/liquid solid").err == "error: unknown argument \"solid\"; see globular check --help\n");
     CHECK(run("render").err == "error: SCENE is required\n");
-    for (const char* arguments : {"", "rendr liquid", "study", "render liquid --sice 64x36", "check liquid solid"})
+    for (const char* arguments : {"", "rendr liquid", "study", "render measured/liquid --sice 64x36", "check measured/liquid solid"})
         CHECK(run(arguments).code == 2);
 }
 
@@ -130,7 +130,7 @@ TEST_CASE("Failures of files and other programs exit with 1 and one line", "[too
 TEST_CASE("An unstable run exits with 3 and keeps the frames before", "[tools]") {
     const program::Folder folder;
     const auto outcome =
-        run("render powder --size 64x36 --set material[0].b1=1e12 --set physics.stepper=symplectic-euler "
+        run("render measured/powder --size 64x36 --set material[0].b1=1e12 --set physics.stepper=symplectic-euler "
             "--set physics.step=0.01 --set physics.wall=paper --frames 0-100 --quiet -o " +
             (folder / "frames").string());
     INFO(outcome.err);
@@ -147,7 +147,7 @@ TEST_CASE("An unstable run exits with 3 and keeps the frames before", "[tools]")
 
 TEST_CASE("check describes a scene that becomes unstable at once", "[tools]") {
     const auto outcome =
-        run("check liquid --set material.b1=1e12 --set physics.stepper=symplectic-euler --set physics.step=0.01 "
+        run("check measured/liquid --set material.b1=1e12 --set physics.stepper=symplectic-euler --set physics.step=0.01 "
             "--set physics.wall=paper");
     INFO(outcome.out << outcome.err);
     CHECK(outcome.code == 3);
@@ -158,7 +158,7 @@ TEST_CASE("check describes a scene that becomes unstable at once", "[tools]") {
 }
 
 TEST_CASE("check says what follows from the size of particles, and how far bodies sink", "[tools]") {
-    const auto outcome = run("check liquid --set resolution=0.5 --set material.b1=0.04");
+    const auto outcome = run("check measured/liquid --set resolution=0.5 --set material.b1=0.04");
     INFO(outcome.out << outcome.err);
     CHECK(outcome.code == 0);
     CHECK(outcome.out.find("b1 2.56, bd 0.3, cr 1, cd 2, radius 0.3 m, mass 0.8 kg") != std::string::npos);
@@ -187,7 +187,7 @@ TEST_CASE("bench refuses a filter that no row contains, and names the rows", "[t
 TEST_CASE("The message of an unstable run names the keys that have an effect", "[tools]") {
     // Nozzles whose particles overlap from the start.
     const std::string stiff =
-        "check powder --quiet --set material[0].b1=1e22 --set emitter[0].pick=all --set emitter[0].jitter=0.25 "
+        "check measured/powder --quiet --set material[0].b1=1e22 --set emitter[0].pick=all --set emitter[0].jitter=0.25 "
         "--set emitter[0].clearance=0.9 --set physics.stepper=";
     const auto automatic = run(stiff + "auto");
     INFO(automatic.err);
@@ -226,7 +226,7 @@ TEST_CASE("Exit codes do not depend on whether the output can be written", "[too
     REQUIRE(::dup2(ends[1], 9) == 9);  // the shell accepts only one digit
     // The program replaces the shell by exec, because a shell would report the same code for a child that a signal
     // killed.
-    CHECK(codeOf("exec " + program + " render powder" + frames + " >&9 2>&9") == 141);
+    CHECK(codeOf("exec " + program + " render measured/powder" + frames + " >&9 2>&9") == 141);
     CHECK(std::filesystem::exists(folder / "frames/run.json"));
     const auto unread = program::shell("exec " + program + " schema >&9");
     CHECK(unread.code == 141);

@@ -64,6 +64,6 @@ TEST_CASE("bash completes commands, flags, values and scenes", "[docs]") {
     CHECK(completed(folder, "devices --") == "--help --json\n");
     CHECK(completed(folder, "render hon") == "honey\n");
     CHECK(completed(folder, "render hard/hon") == "hard/honey hard/honey-5000\n");
-    CHECK(completed(folder, "render liquid --video ''") == "\n");  // bash then completes file names
+    CHECK(completed(folder, "render measured/liquid --video ''") == "\n");  // bash then completes file names
     CHECK(completed(folder, "scenes hon") == "\n");
 }

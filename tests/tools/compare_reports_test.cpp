@@ -102,7 +102,7 @@ TEST_CASE("compare: frames of two videos", "[compare]") {
 TEST_CASE("compare: the manifests of two runs tell what changed", "[compare]") {
     Sides sides;
     const auto draw = [&](const char* folder, const std::string& more) {
-        return program::run("render fountain --size 96x54 --frames 9 --quality draft --quiet --overwrite -o " +
+        return program::run("render measured/fountain --size 96x54 --frames 9 --quality draft --quiet --overwrite -o " +
                             (sides / folder).string() + more)
             .code;
     };

@@ -26,7 +26,7 @@ export ASAN_OPTIONS=${ASAN_OPTIONS:+$ASAN_OPTIONS:}exitcode=99:log_path=$work/sa
 
 fail() { echo "disk_trouble: $*" >&2; exit 1; }
 
-run() { "$program" render fountain --size 160x90 --frames 0-29 --quiet --checkpoint 0 "$@"; }
+run() { "$program" render measured/fountain --size 160x90 --frames 0-29 --quiet --checkpoint 0 "$@"; }
 
 run -o "$work/whole" --video "$work/whole.mp4"
 

@@ -17,7 +17,7 @@ using program::textOf;
 
 /// A small run with births, obstacles, shadows, a video, and a checkpoint at every frame.
 inline std::string fountain(const fs::path& folder, const std::string& more = "") {
-    return "render fountain --size 96x54 --frames 0-19 --quiet --checkpoint 0 -o " + folder.string() + " --video " +
+    return "render measured/fountain --size 96x54 --frames 0-19 --quiet --checkpoint 0 -o " + folder.string() + " --video " +
            folder.string() + ".mp4 " + more;
 }
 

@@ -129,7 +129,7 @@ TEST_CASE("What a link leads to is replaced, a device or a pipe is not", "[tools
     REQUIRE(::mkfifo((folder / "pipe.mp4").c_str(), 0600) == 0);
     CHECK_THROWS_AS(tools::writeFile(folder / "pipe.mp4", std::string("x")), render::SystemError);
     CHECK(fs::is_fifo(folder / "pipe.mp4"));
-    const auto video = program::run("render fountain --size 64x36 --frames 0 --quiet -o " + (folder / "a").string() +
+    const auto video = program::run("render measured/fountain --size 64x36 --frames 0 --quiet -o " + (folder / "a").string() +
                                     " --video " + (folder / "pipe.mp4").string());
     CHECK(video.code == 1);
     CHECK(video.err.find("a file is wanted") != std::string::npos);

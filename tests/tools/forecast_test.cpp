@@ -161,7 +161,7 @@ TEST_CASE("check says what moves, a line for each of the first twelve", "[foreca
 
 TEST_CASE("check says what ranks would gain, if it is asked", "[forecast]") {
     const auto ranks = [](const std::string& flags) {
-        return nlohmann::json::parse(program::run("check --json solid " + flags).out).value("ranks", nlohmann::json());
+        return nlohmann::json::parse(program::run("check --json measured/solid " + flags).out).value("ranks", nlohmann::json());
     };
     CHECK(ranks("").is_null());
     const nlohmann::json few = ranks("--ranks 2");
@@ -170,9 +170,9 @@ TEST_CASE("check says what ranks would gain, if it is asked", "[forecast]") {
     CHECK(few["efficiency"].get<double>() > 2.0 * many["efficiency"].get<double>());
     CHECK(few["ghosts"].get<int>() > 0);
     CHECK(few["speedup"].get<double>() == Approx(2.0 * few["efficiency"].get<double>()));
-    CHECK(program::run("check solid --ranks 1000").out.find("fewer ranks or threads pay better\n") !=
+    CHECK(program::run("check measured/solid --ranks 1000").out.find("fewer ranks or threads pay better\n") !=
           std::string::npos);
-    CHECK(program::run("check solid --ranks 0").code == 2);
+    CHECK(program::run("check measured/solid --ranks 0").code == 2);
 }
 
 TEST_CASE("check does not try a scene whose neighbor list does not fit into memory", "[forecast]") {

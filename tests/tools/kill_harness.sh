@@ -12,7 +12,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 # Scenes with enough frames for many kills, small enough for one to take seconds.
-scenes=(fountain liquid solid powder)
+scenes=(measured/fountain measured/liquid measured/solid measured/powder)
 
 run() { # scene, folder, options...
     local scene=$1 folder=$2
@@ -40,8 +40,9 @@ differing() { # whole, resumed: names of the files that differ
 kills=0 runs=0 differ=0 resumed=0
 while [ "$kills" -lt "$wanted" ]; do
     scene=${scenes[runs % ${#scenes[@]}]}
-    folder=$work/again-$scene
-    [ -d "$work/$scene" ] || (run "$scene" "$work/$scene")
+    whole=$work/$(basename "$scene")
+    folder=$work/again-$(basename "$scene")
+    [ -d "$whole" ] || (run "$scene" "$whole")
     rm -rf "$folder" "$folder.mp4"
     code=137
     for time in 1 2 3; do
@@ -73,7 +74,7 @@ while [ "$kills" -lt "$wanted" ]; do
         echo "$scene left something behind" >&2
         exit 1
     fi
-    for file in $(differing "$work/$scene" "$folder"); do
+    for file in $(differing "$whole" "$folder"); do
         echo "$scene: $file differs" >&2
         differ=$((differ + 1))
     done

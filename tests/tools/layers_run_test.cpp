@@ -49,7 +49,7 @@ std::vector<std::string> namesIn(const fs::path& folder) {
 
 /// A run of a few small frames.
 std::string drawn(const fs::path& folder, const std::string& more) {
-    return "render fountain --size 96x54 --quiet --checkpoint 0 -o " + folder.string() + " " + more;
+    return "render measured/fountain --size 96x54 --quiet --checkpoint 0 -o " + folder.string() + " " + more;
 }
 
 void damage(const fs::path& file) {
@@ -109,9 +109,9 @@ TEST_CASE("Formats that cannot be had are refused in one line, before anything i
     CHECK(refusal("--format tiff").find("normal") != std::string::npos);
     CHECK(refusal("--format rgb,depth,id --renderer opengl") ==
           "error: --format id: OpenGL draws rgb, depth and normal; the other formats are for --renderer cpu\n");
-    CHECK(run("render fountain --frames 0 -o - --format rgb,depth | cat").err ==
+    CHECK(run("render measured/fountain --frames 0 -o - --format rgb,depth | cat").err ==
           "error: -o -: standard output takes one --format\n");
-    const auto piped = run("render fountain --frames 0 --size 96x54 --quiet -o - --format depth | cat");
+    const auto piped = run("render measured/fountain --frames 0 --size 96x54 --quiet -o - --format depth | cat");
     REQUIRE(run(drawn(folder / "a", "--frames 0 --format depth")).code == 0);
     CHECK(piped.out == textOf(folder / "a/frame-00000.depth.png"));
 }

@@ -147,7 +147,7 @@ TEST_CASE("loads.csv is the same for any number of threads, of `render`, and aft
 
 TEST_CASE("Only a run with recorded obstacles writes loads.csv, and none replaces another program's", "[loads]") {
     const PaddleScene scene;
-    REQUIRE(run("simulate liquid --frames 0-2 --quiet -o " + (scene.folder / "a").string()).code == 0);
+    REQUIRE(run("simulate measured/liquid --frames 0-2 --quiet -o " + (scene.folder / "a").string()).code == 0);
     CHECK(fs::exists(scene.folder / "a/run.json"));
     CHECK(!fs::exists(scene.folder / "a/loads.csv"));
 

@@ -44,6 +44,6 @@ TEST_CASE("When memory runs out, the message says what for, how much, and what t
     checkMessage(runWithin(900, "simulate " + cube(folder, 90) + " --frames 0-1" + output),
                  {"error: memory ran out while simulating 1", " asked for, ", "; simulate fewer particles\n"});
     // A picture takes some twenty bytes a pixel.
-    checkMessage(runWithin(700, "render liquid --size 8192x4000 --limit pixels=100000000 --frames 0" + output),
+    checkMessage(runWithin(700, "render measured/liquid --size 8192x4000 --limit pixels=100000000 --frames 0" + output),
                  {" MB ", "8192 x 4000 pixels", "; choose "});
 }

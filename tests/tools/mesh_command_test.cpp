@@ -75,7 +75,7 @@ TEST_CASE("A run of meshes is resumed, and does not mix with others", "[mesh]") 
     if (lacksOpenVdb()) return;
     const Folder folder;
     const auto meshes = [&](const std::string& name, const std::string& more = "") {
-        return "mesh powder --frames 2-20 --quiet --checkpoint 0 -o " + (folder / name).string() + " " + more;
+        return "mesh measured/powder --frames 2-20 --quiet --checkpoint 0 -o " + (folder / name).string() + " " + more;
     };
     REQUIRE(run(meshes("whole")).code == 0);
     early_ends::interrupted(meshes("a"), "KILL", early_ends::after(300), folder / "log");
@@ -95,7 +95,7 @@ TEST_CASE("A run of meshes is resumed, and does not mix with others", "[mesh]") 
         CHECK(outcome.code == 1);
         CHECK(outcome.err.find("holds frames of another run") != std::string::npos);
     }
-    const auto states = run("simulate powder --frames 2 --quiet -o " + (folder / "a").string());
+    const auto states = run("simulate measured/powder --frames 2 --quiet -o " + (folder / "a").string());
     CHECK(states.code == 1);
     // --overwrite removes the meshes of the earlier run, whatever their format.
     REQUIRE(run(meshes("a", "--format obj --overwrite")).code == 0);
@@ -110,7 +110,7 @@ TEST_CASE("A run of meshes is resumed, and does not mix with others", "[mesh]") 
 TEST_CASE("A scene that is drawn as spheres gets a mesh, and is told of what", "[mesh]") {
     if (lacksOpenVdb()) return;
     const Folder folder;
-    const std::string mesh = "mesh powder --frames 0 --overwrite -o " + (folder / "a").string();
+    const std::string mesh = "mesh measured/powder --frames 0 --overwrite -o " + (folder / "a").string();
     const auto plain = run(mesh + " --set look.style=spheres");
     CHECK(plain.code == 0);
     CHECK(plain.err.find("the scene is drawn as spheres; the mesh is of metaballs with look.metaball_reach = 2.5") !=
@@ -123,8 +123,8 @@ TEST_CASE("A scene that is drawn as spheres gets a mesh, and is told of what", "
 
 TEST_CASE("Wrong flags of mesh are refused in one line", "[mesh]") {
     const Folder folder;
-    for (const char* arguments : {"mesh powder --cell 0", "mesh powder --cell nan", "mesh powder --cell 2",
-                                  "mesh powder --format stl", "mesh powder --frames 100000", "mesh nosuchscene"}) {
+    for (const char* arguments : {"mesh measured/powder --cell 0", "mesh measured/powder --cell nan", "mesh measured/powder --cell 2",
+                                  "mesh measured/powder --format stl", "mesh measured/powder --frames 100000", "mesh nosuchscene"}) {
         const auto outcome = run(std::string(arguments) + " -o " + (folder / "a").string());
         INFO(arguments << ": " << outcome.err);
         CHECK(outcome.code == 2);
@@ -141,7 +141,7 @@ TEST_CASE("A build without OpenVDB says so before it simulates", "[mesh]") {
     }
     CHECK(version.find("without OpenVDB") != std::string::npos);
     const Folder folder;
-    const auto outcome = run("mesh powder -o " + (folder / "a").string());
+    const auto outcome = run("mesh measured/powder -o " + (folder / "a").string());
     CHECK(outcome.code == 1);
     CHECK(outcome.err.find("this build has no OpenVDB") != std::string::npos);
     CHECK(program::lineCount(outcome.err) == 1);

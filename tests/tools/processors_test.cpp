@@ -45,7 +45,7 @@ TEST_CASE("The quota of a control group and of the groups around it limits the p
 
 TEST_CASE("A process that is bound to one processor uses one thread", "[processors]") {
     const program::Folder folder;
-    const std::string arguments = " simulate fountain --frames 0 --quiet -o " + (folder / "a").string();
+    const std::string arguments = " simulate measured/fountain --frames 0 --quiet -o " + (folder / "a").string();
     const std::string firstAllowed = "$(taskset -cp $$ | sed \"s/.*: //; s/[-,].*//\")";
     REQUIRE(program::shell("taskset -c " + firstAllowed + " " GLOBULAR_PROGRAM + arguments).code == 0);
     CHECK(program::textOf(folder / "a/run.json").find("\"threads\": 1,") != std::string::npos);

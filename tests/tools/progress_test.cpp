@@ -59,7 +59,7 @@ TEST_CASE("The line of progress fits any terminal", "[progress]") {
 
 TEST_CASE("On a terminal, frames that are not drawn count, and no line is too wide", "[progress]") {
     const program::Folder folder;
-    const std::string frames = " render fountain --size 64x36 --frames 60-61 --threads 1 -o " + (folder / "a").string();
+    const std::string frames = " render measured/fountain --size 64x36 --frames 60-61 --threads 1 -o " + (folder / "a").string();
     for (const int columns : {50, 15}) {
         const auto outcome = program::shell("script -qec 'stty cols " + std::to_string(columns) +
                                             "; " GLOBULAR_PROGRAM + frames + "' /dev/null </dev/null");
@@ -84,7 +84,7 @@ TEST_CASE("On a terminal, frames that are not drawn count, and no line is too wi
 TEST_CASE("A comparison counts its pictures on a terminal, and its summary has a line of its own", "[progress]") {
     const program::Folder folder;
     const std::string frames = (folder / "a").string();
-    REQUIRE(program::run("render fountain --size 64x36 --frames 0-2 --quiet -o " + frames).code == 0);
+    REQUIRE(program::run("render measured/fountain --size 64x36 --frames 0-2 --quiet -o " + frames).code == 0);
     const auto outcome =
         program::shell("script -qec '" GLOBULAR_PROGRAM " compare " + frames + " " + frames + "' /dev/null </dev/null");
     INFO(outcome.out);

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 /// A short, small run of a scene of metaballs with shadows, births and obstacles.
 std::string fountainRun(const fs::path& folder, const std::string& more) {
-    return "render fountain --size 160x90 --frames 0-9 --quiet -o " + folder.string() + " --video " + folder.string() +
+    return "render measured/fountain --size 160x90 --frames 0-9 --quiet -o " + folder.string() + " --video " + folder.string() +
            ".mp4 " + more;
 }
 
@@ -91,7 +91,7 @@ TEST_CASE("A run and check say that particles have left the scene", "[tools]") {
 
 TEST_CASE("A list of frames gives just these frames, and is resumed", "[tools]") {
     const program::Folder folder;
-    const std::string states = "simulate powder --quiet --checkpoint 0 -o ";
+    const std::string states = "simulate measured/powder --quiet --checkpoint 0 -o ";
     REQUIRE(run(states + (folder / "all").string() + " --frames 0-9").code == 0);
     const std::string list = states + (folder / "list").string() + " --frames 1,3-9:3";
     REQUIRE(run(list).code == 0);
@@ -114,13 +114,13 @@ TEST_CASE("A list of frames gives just these frames, and is resumed", "[tools]")
 
 TEST_CASE("Leaving frames out changes none of those that are drawn", "[tools]") {
     const program::Folder folder;
-    const std::string small = "render fountain --size 160x90 --quiet -o ";
+    const std::string small = "render measured/fountain --size 160x90 --quiet -o ";
     REQUIRE(run(small + (folder / "all").string() + " --frames 0-9").code == 0);
     REQUIRE(run(small + (folder / "last").string() + " --frames 9").code == 0);
     CHECK(textOf(folder / "last/frame-00009.png") == textOf(folder / "all/frame-00009.png"));
     CHECK(nlohmann::json::parse(textOf(folder / "last/run.json"))["state_hash"] ==
           nlohmann::json::parse(textOf(folder / "all/run.json"))["state_hash"]);
-    REQUIRE(run("simulate fountain --frames 9 --quiet -o " + (folder / "states").string()).code == 0);
+    REQUIRE(run("simulate measured/fountain --frames 9 --quiet -o " + (folder / "states").string()).code == 0);
     CHECK(nlohmann::json::parse(textOf(folder / "states/run.json"))["state_hash"] ==
           nlohmann::json::parse(textOf(folder / "all/run.json"))["state_hash"]);
 }
@@ -165,7 +165,7 @@ TEST_CASE("A limit on the size of files is an error like a full disk", "[tools]"
     // bring to its end.
     for (int k = 0; k < 8; ++k) {
         const auto frames =
-            program::shell(limited + "render liquid --size 320x180 --frames 0-1 --threads 4 --quiet -o " +
+            program::shell(limited + "render measured/liquid --size 320x180 --frames 0-1 --threads 4 --quiet -o " +
                            (folder / "limited").string());
         INFO(frames.err);
         CHECK(frames.code == 1);
@@ -202,7 +202,7 @@ TEST_CASE("A folder for temporary files that is not there is named, and the syst
 TEST_CASE("A frame rate that is a fraction is kept by run.json, video and a resumed run", "[tools]") {
     const program::Folder folder;
     const std::string ntsc =
-        "render fountain --size 64x36 --quality draft --quiet --checkpoint 0 "
+        "render measured/fountain --size 64x36 --quality draft --quiet --checkpoint 0 "
         "--set fps=30000/1001 --frames 0-4 -o " +
         (folder / "a").string() + " --video " + (folder / "a.mp4").string();
     REQUIRE(run(ntsc).code == 0);
@@ -230,7 +230,7 @@ TEST_CASE("A frame rate that is a fraction is kept by run.json, video and a resu
 
 TEST_CASE("globular simulate writes states that a scene can start from", "[tools]") {
     const program::Folder folder;
-    REQUIRE(run("simulate powder --frames 0-3 --quiet -o " + (folder / "states").string()).code == 0);
+    REQUIRE(run("simulate measured/powder --frames 0-3 --quiet -o " + (folder / "states").string()).code == 0);
     CHECK(fs::exists(folder / "states/particles-00003.ply"));
     std::ofstream(folder / "again.toml")
         << "title = \"again\"\nduration = 0.1\n[material]\npreset = \"powder\"\nmass = 0.1\n"
@@ -271,7 +271,7 @@ TEST_CASE("Error estimates with a fixed step cost at most a tenth of the run, an
 
 TEST_CASE("The automatic stepper's comparisons are counted among its force evaluations", "[tools]") {
     const program::Folder folder;
-    REQUIRE(run("simulate liquid --quiet --frames 0-5 -o " + (folder / "states").string()).code == 0);
+    REQUIRE(run("simulate measured/liquid --quiet --frames 0-5 -o " + (folder / "states").string()).code == 0);
     const auto json = nlohmann::json::parse(textOf(folder / "states/run.json"));
     const double spent = json["steps"]["force_evaluations_of_error_estimates"];
     CHECK(spent > 0.0);
@@ -391,7 +391,7 @@ TEST_CASE("Blur is drawn in final quality, warned of in others, and told by chec
     CHECK(run("check " + path)
               .out.find("blur       shutter 0.5, aperture 0.25 m; with --quality final only, 16 samples") !=
           std::string::npos);
-    CHECK(run("check liquid").out.find("blur") == std::string::npos);
+    CHECK(run("check measured/liquid").out.find("blur") == std::string::npos);
 }
 
 TEST_CASE("Every command explains itself with an example", "[tools]") {

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSmall = "render fountain --size 160x90 --frames 0-3 --quiet -o ";
+constexpr const char* kSmall = "render measured/fountain --size 160x90 --frames 0-3 --quiet -o ";
 
 nlohmann::json jsonOf(const fs::path& path) {
     return nlohmann::json::parse(textOf(path));
@@ -39,14 +39,14 @@ constexpr const char* kNoEglDriver = "__EGL_VENDOR_LIBRARY_FILENAMES=/dev/null";
 
 TEST_CASE("--gl without the OpenGL renderer is wrong input", "[opengl]") {
     for (const char* command :
-         {"render liquid", "strip liquid", "bench --filter draw", "render liquid --renderer cpu"}) {
+         {"render measured/liquid", "strip measured/liquid", "bench --filter draw", "render measured/liquid --renderer cpu"}) {
         const auto outcome = run(std::string(command) + " --gl egl");
         INFO(command);
         CHECK(outcome.code == 2);
         CHECK(outcome.err == "error: --gl egl: the CPU draws; --gl is for --renderer opengl\n");
     }
-    CHECK(run("render liquid --renderer opengl --gl vulkan").err.find("no such OpenGL device") != std::string::npos);
-    CHECK(run("render liquid --renderer vulkan").code == 2);
+    CHECK(run("render measured/liquid --renderer opengl --gl vulkan").err.find("no such OpenGL device") != std::string::npos);
+    CHECK(run("render measured/liquid --renderer vulkan").code == 2);
 }
 
 TEST_CASE("A run on the CPU records that no OpenGL has drawn", "[opengl]") {
@@ -57,7 +57,7 @@ TEST_CASE("A run on the CPU records that no OpenGL has drawn", "[opengl]") {
         CHECK(record.at("gl_renderer").is_null());
         CHECK(record.at("gl_version").is_null());
     }
-    REQUIRE(run("simulate powder --quiet --frames 0 -o " + (folder / "b").string()).code == 0);
+    REQUIRE(run("simulate measured/powder --quiet --frames 0 -o " + (folder / "b").string()).code == 0);
     CHECK(jsonOf(folder / "b/run.json").at("renderer").is_null());
 }
 
@@ -128,7 +128,7 @@ TEST_CASE("OpenGL draws a run, repeats it byte for byte, and records the device"
     REQUIRE(run(kSmall + (folder / "c").string() + onGl + " --gl egl").code == 0);
     CHECK(jsonOf(folder / "c/run.json")["gl_renderer"] == devices()[1]["renderer"]);
     const std::string strip = (folder / "strip.png").string();
-    CHECK(run("strip fountain --times 0.1,0.2 --size 160x90 --quiet -o " + strip + onGl).code == 0);
+    CHECK(run("strip measured/fountain --times 0.1,0.2 --size 160x90 --quiet -o " + strip + onGl).code == 0);
     CHECK(fs::exists(strip));
 }
 
@@ -173,7 +173,7 @@ TEST_CASE("Frames of another renderer or device are another run's", "[opengl]") 
 #else
 
 TEST_CASE("A build without OpenGL draws on the CPU and says what it lacks", "[opengl]") {
-    const auto outcome = run("render liquid --frames 0 --renderer opengl");
+    const auto outcome = run("render measured/liquid --frames 0 --renderer opengl");
     CHECK(outcome.code == 1);
     CHECK(outcome.err ==
           "error: OpenGL on osmesa cannot be used: this globular was built without OpenGL; without OpenGL: --renderer "

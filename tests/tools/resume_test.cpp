@@ -62,7 +62,7 @@ TEST_CASE("An animated picture of a resumed run has the bytes of an undisturbed 
         INFO(extension);
         const auto film = [&](const std::string& name) { return folder / (name + extension); };
         const auto drawn = [&](const std::string& name, const std::string& more = "") {
-            return "render fountain --size 96x54 --frames 0-19 --quiet --checkpoint 0 -o " +
+            return "render measured/fountain --size 96x54 --frames 0-19 --quiet --checkpoint 0 -o " +
                    (folder / (name + extension + "-frames")).string() + " --video " + film(name).string() + " " + more;
         };
         REQUIRE(run(drawn("whole")).code == 0);
@@ -79,7 +79,7 @@ TEST_CASE("An animated picture of a resumed run has the bytes of an undisturbed 
 TEST_CASE("A run that writes particle states is resumed as well", "[resume]") {
     const Folder folder;
     const auto states = [](const fs::path& to, const std::string& more) {
-        return "simulate powder --frames 2-30 --quiet --checkpoint 0 -o " + to.string() + " " + more;
+        return "simulate measured/powder --frames 2-30 --quiet --checkpoint 0 -o " + to.string() + " " + more;
     };
     REQUIRE(run(states(folder / "whole", "")).code == 0);
     interrupted(states(folder / "a", ""), "KILL", after(100), folder / "log");
@@ -143,7 +143,7 @@ TEST_CASE("A damaged manifest is an error", "[resume]") {
 
 TEST_CASE("Frames of different runs are never mixed", "[resume]") {
     const Folder folder;
-    const std::string base = "render fountain --size 96x54 --frames 0-3 --quiet -o " + (folder / "a").string();
+    const std::string base = "render measured/fountain --size 96x54 --frames 0-3 --quiet -o " + (folder / "a").string();
     REQUIRE(run(base).code == 0);
     const auto before = filesOf(folder / "a");
     CHECK(run(base).code == 0);  // the same run may be repeated
@@ -163,7 +163,7 @@ TEST_CASE("Frames of different runs are never mixed", "[resume]") {
     CHECK(outcome.code == 1);
     CHECK(outcome.err.find("size: [96,54] there, [64,36] here") != std::string::npos);
     // --overwrite removes all frames of the old run, including those that the new run does not have.
-    REQUIRE(run("render powder --size 64x36 --frames 0-1 --quiet --overwrite -o " + (folder / "a").string()).code == 0);
+    REQUIRE(run("render measured/powder --size 64x36 --frames 0-1 --quiet --overwrite -o " + (folder / "a").string()).code == 0);
     CHECK(filesOf(folder / "a").size() == 2);
     CHECK(run(base + " --resume --overwrite").code == 2);
 }
@@ -173,7 +173,7 @@ TEST_CASE("A short run leaves the newest checkpoint of a longer one", "[resume]"
     REQUIRE(run(fountain(folder / "a")).code == 0);
     fs::remove(folder / "a/frame-00003.png");
     REQUIRE(
-        run("render fountain --size 96x54 --frames 0-5 --quiet --checkpoint 0 --resume -o " + (folder / "a").string())
+        run("render measured/fountain --size 96x54 --frames 0-5 --quiet --checkpoint 0 --resume -o " + (folder / "a").string())
             .code == 0);
     CHECK(runOf(folder / "a")["resumed_from"].is_null());
     CHECK(checkpointsIn(folder / "a").size() == 3);  // 4, 5 and 19
@@ -191,7 +191,7 @@ TEST_CASE("Without --resume a run starts from the beginning", "[resume]") {
 TEST_CASE("Frames are kept without any checkpoint", "[resume]") {
     const Folder folder;
     const std::string arguments =
-        "render fountain --size 96x54 --quiet --checkpoint 3600 -o " + (folder / "a").string();
+        "render measured/fountain --size 96x54 --quiet --checkpoint 3600 -o " + (folder / "a").string();
     REQUIRE(interrupted(arguments, "KILL", onceThat("grep -qs 00000 " + (folder / "a/manifest.json").string()),
                         folder / "log") == 137);
     REQUIRE(checkpointsIn(folder / "a").empty());
@@ -206,7 +206,7 @@ TEST_CASE("--overwrite removes every file of a run, pictures and states", "[resu
     const Folder folder;
     REQUIRE(run(fountain(folder / "a")).code == 0);
     std::ofstream(folder / "a/notes.txt") << "mine";
-    const std::string states = "simulate powder --frames 0-2 --quiet -o " + (folder / "a").string();
+    const std::string states = "simulate measured/powder --frames 0-2 --quiet -o " + (folder / "a").string();
     CHECK(run(states).code == 1);
     REQUIRE(run(states + " --overwrite").code == 0);
     CHECK(filesOf(folder / "a").size() == 4);  // three states and the video beside the folder
@@ -236,7 +236,7 @@ TEST_CASE("Files of another origin are not touched, with --overwrite or without"
 
 TEST_CASE("--overwrite removes the frames that a manifest lists, and no run may have written others", "[resume]") {
     const Folder folder;
-    const std::string tiny = "render fountain --size 64x36 --quiet -o " + (folder / "a").string();
+    const std::string tiny = "render measured/fountain --size 64x36 --quiet -o " + (folder / "a").string();
     REQUIRE(run(tiny + " --frames 2,4").code == 0);
     // A run that was killed leaves frames that its manifest does not list yet: of those that it was asked for.
     auto manifest = nlohmann::json::parse(textOf(folder / "a/manifest.json"));

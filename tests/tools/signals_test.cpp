@@ -35,7 +35,7 @@ constexpr double kAtOnce = 0.35;
 TEST_CASE("A signal ends a run after the current frame, with a video that plays and a way to resume", "[resume]") {
     const Folder folder;
     REQUIRE(run(fountain(folder / "whole")).code == 0);
-    const std::string arguments = "render fountain --size 96x54 --quiet --checkpoint 100 -o " +
+    const std::string arguments = "render measured/fountain --size 96x54 --quiet --checkpoint 100 -o " +
                                   (folder / "a").string() + " --video " + (folder / "a.mp4").string();
     const auto [signal, code] = GENERATE(std::pair{"INT", 130}, std::pair{"TERM", 143}, std::pair{"HUP", 129});
     CHECK(interrupted(arguments, signal, onceThat("test -e " + (folder / "a/frame-00030.png").string()),
@@ -62,7 +62,7 @@ TEST_CASE("A signal ends a run inside a frame that takes long, and a second one 
     const Folder folder;
     // A frame of more than a million steps.
     const std::string arguments =
-        "simulate liquid --set physics.stepper=\\\"velocity-verlet\\\" --set physics.step=2e-8 -o " +
+        "simulate measured/liquid --set physics.stepper=\\\"velocity-verlet\\\" --set physics.step=2e-8 -o " +
         (folder / "a").string();
     const std::string log = (folder / "log").string();
     const auto [signal, code] = GENERATE(std::pair{"INT", 130}, std::pair{"TERM", 143});
@@ -86,7 +86,7 @@ TEST_CASE("A run ends in time while it draws a picture that takes long, and its 
     const Folder folder;
     const std::string log = (folder / "log").string();
     const std::string drawing =
-        "render liquid --size 3840x2160 --quality final --frames 0-19 --threads 1 -o " + (folder / "a").string();
+        "render measured/liquid --size 3840x2160 --quality final --frames 0-19 --threads 1 -o " + (folder / "a").string();
     const bool isTwice = GENERATE(false, true);
     std::string when = onceThat("test -e " + (folder / "a").string()) + "; sleep 1";
     if (isTwice) when += "; kill -TERM $child; sleep 0.1";
@@ -94,7 +94,7 @@ TEST_CASE("A run ends in time while it draws a picture that takes long, and its 
     CHECK(secondsToEnd(log) < (isTwice ? kAtOnce : kSoon));
     CHECK(textOf(log).find("to go on, give the same command with --resume") != std::string::npos);
     const std::string small =
-        "render fountain --size 96x54 --frames 0-3 --quiet --overwrite -o " + (folder / "a").string();
+        "render measured/fountain --size 96x54 --frames 0-3 --quiet --overwrite -o " + (folder / "a").string();
     CHECK(run(small).code == 0);
 }
 
@@ -127,7 +127,7 @@ TEST_CASE("A run ends in time while ffmpeg makes its last pass, and a resumed on
 
 TEST_CASE("A signal that a run was started to ignore stays ignored", "[resume]") {
     const Folder folder;
-    const std::string arguments = "render fountain --size 96x54 --quiet --frames 0-30 -o " + (folder / "a").string();
+    const std::string arguments = "render measured/fountain --size 96x54 --quiet --frames 0-30 -o " + (folder / "a").string();
     const std::string signal = GENERATE("INT", "HUP");
     CHECK(interrupted(arguments, signal, onceThat("test -e " + (folder / "a/frame-00005.png").string()), folder / "log",
                       "--ignore-signal") == 0);

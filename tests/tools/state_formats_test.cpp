@@ -26,7 +26,7 @@ const std::string& all() {
 }
 
 std::string states(const fs::path& folder, const std::string& more) {
-    return "simulate powder --quiet --checkpoint 0 -o " + folder.string() + " " + more;
+    return "simulate measured/powder --quiet --checkpoint 0 -o " + folder.string() + " " + more;
 }
 
 /// The contents of the files of particles and their index, by name.
@@ -139,13 +139,13 @@ TEST_CASE("The metaballs' field is written like particles, the same for any numb
     CHECK(run(states(folder / "a", flags + " --resume --set look.skin=smooth")).code == 1);
     REQUIRE(run(states(folder / "a", flags + " --overwrite --set look.skin=smooth")).code == 0);
     CHECK(particlesIn(folder / "a").at("particles-00003.vdb") != fields.at("particles-00003.vdb"));
-    const std::string spheres = "simulate powder --frames 0 --set look.style=spheres -o " + (folder / "d").string();
+    const std::string spheres = "simulate measured/powder --frames 0 --set look.style=spheres -o " + (folder / "d").string();
     CHECK(run(spheres + " --format vdb")
               .err.find("the scene is drawn as spheres; the field is of metaballs with "
                         "look.metaball_reach = 2.5") != std::string::npos);
     CHECK(run(spheres + " --format ply --overwrite").err.find("metaballs") == std::string::npos);
     // A folder of fields has no particles to draw.
-    const auto drawn = run("render powder --frames 1 -o " + (folder / "c").string() +
+    const auto drawn = run("render measured/powder --frames 1 -o " + (folder / "c").string() +
                            " --set look.skin=smooth --states " + (folder / "a").string());
     CHECK(drawn.code == 1);
     CHECK(drawn.err.find("has no states of frames 1") != std::string::npos);
