@@ -150,6 +150,8 @@ TEST_CASE("Goldens by OpenGL show what those by the CPU show", "[golden]") {
         if (!scene.isDrawnWithOpenGl) continue;
         for (const char* style : {"spheres", "metaballs"}) {
             INFO(scene.name << ", " << style);
+            // Behind the bends of jets neighboring rays go to places far apart, and roundings decide which.
+            limits.share = scene.name == "fountain" ? 0.015 : render::limitsOf("renderer").share;
             const render::Image drawn = picture(golden::goldenName(scene, style, scene.second, "opengl"));
             const auto byCpu = [&](int frame) { return picture(golden::goldenName(scene, style, frame, "cpu")); };
             CHECK(render::compare(drawn, byCpu(scene.second), limits).passed());
