@@ -1,6 +1,6 @@
 // The samples of a pixel in final quality: where in the pixel each lies, at which moment of the open shutter it is
 // taken, and through which point of the lens. Used by the Renderer, which draws a view once for each sample if they
-// differ in more than their places, and by whoever makes the moments of a view.
+// differ in more than their places, and by scenes/view, which makes the moments of a view.
 //
 // A picture is the mean over its samples, so that each of the three has to be spread evenly on its own. Moments must go
 // together with neither of the others: a moving edge would show another blur than one at rest, or one side of the lens

@@ -26,8 +26,8 @@ struct Subcell {
 struct FieldCells {
     std::uint64_t id = 0;  ///< another one for each field in the program, above 0; copies have the same
     int along = 4;         ///< number of subcells along each side of a block, a power of two
-    std::vector<std::int32_t>
-        blocks;                     ///< of each block: kAllInside, kAllOutside, or its number among those with subcells
+    /// Of each block: kAllInside, kAllOutside, or its number among those with subcells.
+    std::vector<std::int32_t> blocks;
     std::vector<Subcell> subcells;  ///< subcellsOfBlock() for each block, x fastest
     std::vector<std::uint32_t> balls;  ///< indices in BallCells, ascending within a subcell
 
