@@ -15,11 +15,13 @@ namespace scenes_test {
 
 using Lines = std::vector<std::string>;
 
+// Not inline: each file has its own copies, which are made before those of its constants that extend them.
+
 /// A valid scene: a title, a duration and one ball. Text that is appended starts in line 6.
-inline const std::string kBall = "title = \"t\"\nduration = 2\n[[body]]\nshape = \"ball\"\nradius = 0.5\n";
+const std::string kBall = "title = \"t\"\nduration = 2\n[[body]]\nshape = \"ball\"\nradius = 0.5\n";
 
 /// The keys above the first table, without a body. Text that is appended starts in line 3.
-inline const std::string kTop = "title = \"t\"\nduration = 2\n";
+const std::string kTop = "title = \"t\"\nduration = 2\n";
 
 /// The problems of a scene with the file name pile.toml, one line for each.
 inline Lines problemsOf(const std::string& text, const scenes::Overrides& overrides = {}) {

@@ -40,7 +40,7 @@ class BallSet {
         copy(cells.y, kBallY, whole);
         copy(cells.z, kBallZ, whole);
         copy(cells.peak, kBallPeak, whole);
-        std::fill_n(&values_[kBallPeak * stride_] + count, whole - count, -1.0F);
+        std::fill_n(values_.data() + kBallPeak * stride_ + count, whole - count, -1.0F);
         if (!cells.isAnisotropic()) return copy(cells.squaredSlope, kBallForm, whole);
         for (std::size_t k = 0; k < cells.form.size(); ++k) copy(cells.form[k], kBallForm + k, whole);
     }
