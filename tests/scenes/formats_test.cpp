@@ -55,7 +55,7 @@ ParticleFile decoded(const std::string& bytes) {
     return scenes::decodeParticles(bytes, "a.dat");
 }
 
-std::string problemOf(const std::string& bytes) {
+std::string formatProblem(const std::string& bytes) {
     try {
         decoded(bytes);
     } catch (const scenes::InputError& error) {
@@ -147,7 +147,7 @@ TEST_CASE("no part of a file is taken for the whole", "[formats]") {
         const std::size_t last = whole.back() == '\n' ? whole.find_last_of(" >") : whole.size() - 1;
         for (std::size_t length = 0; length <= last; ++length) {
             INFO(format << " of " << length << " bytes");
-            REQUIRE(problemOf(whole.substr(0, length)) != "no error");
+            REQUIRE(formatProblem(whole.substr(0, length)) != "no error");
         }
     }
 }
@@ -172,7 +172,7 @@ TEST_CASE("a file of no known format is rejected", "[formats]") {
     const std::string problem =
         "a.dat: is no particle file: neither PLY nor VTK PolyData (.vtp), extended XYZ or a LAMMPS dump as text";
     for (const char* bytes : {"", "nonsense", "\n\n", "3 4\n", "-3\n\n", "# vtk DataFile Version 3.0\n", "\x1f\x8b"})
-        CHECK(problemOf(bytes) == problem);
+        CHECK(formatProblem(bytes) == problem);
 }
 
 TEST_CASE("LAMMPS' dumps are read with their columns in any order", "[formats]") {
@@ -202,28 +202,28 @@ TEST_CASE("of several snapshots the last is read, which is said", "[formats]") {
 
 TEST_CASE("dumps with mistakes are rejected with their line", "[formats]") {
     const std::string atoms = kDump + "ITEM: ATOMS id type x y z\n";
-    CHECK(problemOf(atoms + "1 1 0 0 0\n") == "a.dat:11: the file ends before its last particle");
-    CHECK(problemOf(atoms + "1 1 0 0 0\n2 1 0 0\n") == "a.dat:11: z is missing: the line must have 5 words");
-    CHECK(problemOf(atoms + "1 1 0 0 0\n2 1 0 0 0 0\n") == "a.dat:11: the line must have 5 words, not more");
-    CHECK(problemOf(atoms + "1 1 0 0 0\n2 1 0 0 0x\n") == "a.dat:11: z is \"0x\", must be a number");
-    CHECK(problemOf(atoms + "1 1 0 0 0\n2 0 0 0 0\n") ==
+    CHECK(formatProblem(atoms + "1 1 0 0 0\n") == "a.dat:11: the file ends before its last particle");
+    CHECK(formatProblem(atoms + "1 1 0 0 0\n2 1 0 0\n") == "a.dat:11: z is missing: the line must have 5 words");
+    CHECK(formatProblem(atoms + "1 1 0 0 0\n2 1 0 0 0 0\n") == "a.dat:11: the line must have 5 words, not more");
+    CHECK(formatProblem(atoms + "1 1 0 0 0\n2 1 0 0 0x\n") == "a.dat:11: z is \"0x\", must be a number");
+    CHECK(formatProblem(atoms + "1 1 0 0 0\n2 0 0 0 0\n") ==
           "a.dat:11: particle 1: material is -1, must be a whole number from 0 to 4294967295");
-    CHECK(problemOf(atoms + "1 1 0 0 0\n2 1 0 0 1e300\n") ==
+    CHECK(formatProblem(atoms + "1 1 0 0 0\n2 1 0 0 1e300\n") ==
           "a.dat:11: particle 1: z is 1e+300, must be -100000000 to 100000000");
-    CHECK(problemOf(atoms + "1 1 0 0 0\n2 1 0 0 0\n3 1 0 0 0\n") ==
+    CHECK(formatProblem(atoms + "1 1 0 0 0\n2 1 0 0 0\n3 1 0 0 0\n") ==
           "a.dat:12: must be an ITEM: there are more lines than atoms, or a line is damaged");
-    CHECK(problemOf(kDump + "ITEM: ATOMS id x y\n1 0 0\n1 0 0\n") ==
+    CHECK(formatProblem(kDump + "ITEM: ATOMS id x y\n1 0 0\n1 0 0\n") ==
           "a.dat:9: ITEM: ATOMS has no columns x y z (nor xu yu zu, xs ys zs)");
-    CHECK(problemOf(kDump + "ITEM: ATOMS x y z radius diameter\n1 0 0 1 1\n1 0 0 1 1\n") ==
+    CHECK(formatProblem(kDump + "ITEM: ATOMS x y z radius diameter\n1 0 0 1 1\n1 0 0 1 1\n") ==
           "a.dat:9: column radius is given twice");
-    CHECK(problemOf(replaced(atoms, "OF ATOMS\n2", "OF ATOMS\n-2")) ==
+    CHECK(formatProblem(replaced(atoms, "OF ATOMS\n2", "OF ATOMS\n-2")) ==
           "a.dat:4: the number of atoms is \"-2\", must be a whole number");
-    CHECK(problemOf(replaced(atoms, "OF ATOMS\n2", "OF ATOMS\n18446744073709551615") + "1 1 0 0 0\n") ==
+    CHECK(formatProblem(replaced(atoms, "OF ATOMS\n2", "OF ATOMS\n18446744073709551615") + "1 1 0 0 0\n") ==
           "a.dat:11: the file ends before its last particle");
-    CHECK(problemOf("ITEM: TIMESTEP\n0\nITEM: ATOMS x y z\n") ==
+    CHECK(formatProblem("ITEM: TIMESTEP\n0\nITEM: ATOMS x y z\n") ==
           "a.dat:3: ITEM: ATOMS without ITEM: NUMBER OF ATOMS before it");
-    CHECK(problemOf("ITEM: ENTRIES x\n") == "a.dat:1: unknown ITEM: ENTRIES x");
-    CHECK(problemOf(replaced(kDump, "pp pp ff", "xy xz yz pp pp ff") + "ITEM: ATOMS xs ys zs\n0 0 0\n0 0 0\n") ==
+    CHECK(formatProblem("ITEM: ENTRIES x\n") == "a.dat:1: unknown ITEM: ENTRIES x");
+    CHECK(formatProblem(replaced(kDump, "pp pp ff", "xy xz yz pp pp ff") + "ITEM: ATOMS xs ys zs\n0 0 0\n0 0 0\n") ==
           "a.dat:9: scaled positions need an orthogonal box; dump x y z instead");
 }
 
@@ -246,7 +246,7 @@ TEST_CASE("extended XYZ files are read as others write them", "[formats]") {
 
 TEST_CASE("extended XYZ files with mistakes are rejected with their line", "[formats]") {
     const auto with = [](const std::string& properties, const std::string& row = "1 2 3\n") {
-        return problemOf("1\nProperties=" + properties + "\n" + row);
+        return formatProblem("1\nProperties=" + properties + "\n" + row);
     };
     CHECK(with("pos:R:3") == "no error");
     CHECK(with("pos:R") == "a.dat:2: Properties: the number of columns of \"pos\" is \"\", must be a whole number");
@@ -257,11 +257,12 @@ TEST_CASE("extended XYZ files with mistakes are rejected with their line", "[for
     CHECK(with("pos:R:3:velo:R:3:vel:R:3") == "a.dat:2: Properties: vel is given twice");
     CHECK(with("velo:R:3") == "a.dat: property \"x\" is missing");
     CHECK(with("pos:R:3", "1 2 nan\n") == "a.dat:3: particle 0: z is nan, must be -100000000 to 100000000");
-    CHECK(problemOf("2\n\nA 1 2 3\n") == "a.dat:4: the file ends before its last particle");
-    CHECK(problemOf("99999999999999999999\n\n") ==
+    CHECK(formatProblem("2\n\nA 1 2 3\n") == "a.dat:4: the file ends before its last particle");
+    CHECK(formatProblem("99999999999999999999\n\n") ==
           "a.dat:1: the number of particles is \"99999999999999999999\", must be a whole number");
-    CHECK(problemOf("1\n") == "a.dat:2: the file ends before its line of properties");
-    CHECK(problemOf("1\n\nA 1 2 3\nB 1 2 3\n") == "a.dat:4: the number of particles is \"B\", must be a whole number");
+    CHECK(formatProblem("1\n") == "a.dat:2: the file ends before its line of properties");
+    CHECK(formatProblem("1\n\nA 1 2 3\nB 1 2 3\n") ==
+          "a.dat:4: the number of particles is \"B\", must be a whole number");
 }
 
 TEST_CASE("VTP files are read as others write them", "[formats]") {
@@ -287,7 +288,7 @@ TEST_CASE("VTP files are read as others write them", "[formats]") {
 
 TEST_CASE("VTP files with mistakes are rejected with their line", "[formats]") {
     const auto withRadius = [](const std::string& attributes, const std::string& text = "1 1") {
-        return problemOf(vtp("<DataArray Name=\"radius\" " + attributes + ">" + text + "</DataArray>"));
+        return formatProblem(vtp("<DataArray Name=\"radius\" " + attributes + ">" + text + "</DataArray>"));
     };
     CHECK(withRadius("type=\"Float32\" format=\"ascii\"") == "no error");
     CHECK(withRadius("type=\"Float32\" format=\"ascii\"", "1") ==
@@ -303,22 +304,22 @@ TEST_CASE("VTP files with mistakes are rejected with their line", "[formats]") {
     CHECK(withRadius("type=\"Int8\" format=\"binary\"", "AwAAAAEB") == "a.dat:8: radius: has 3 bytes, must have 2");
     CHECK(withRadius("type=\"Int8\" format=\"binary\"", "AgAAAA==") ==
           "a.dat:8: radius: the file ends before its data do");
-    CHECK(problemOf("<html></html>") == "a.dat:1: is not a VTK file");
-    CHECK(problemOf("<VTKFile type=\"UnstructuredGrid\">") ==
+    CHECK(formatProblem("<html></html>") == "a.dat:1: is not a VTK file");
+    CHECK(formatProblem("<VTKFile type=\"UnstructuredGrid\">") ==
           "a.dat:1: holds UnstructuredGrid, must hold PolyData (.vtp)");
-    CHECK(problemOf(kVtpTop + "<Piece NumberOfPoints=\"99999999999\">") ==
+    CHECK(formatProblem(kVtpTop + "<Piece NumberOfPoints=\"99999999999\">") ==
           "a.dat:4: has 121 bytes, too few for 99999999999 points");
-    CHECK(problemOf(kVtpTop + "<Piece NumberOfPoints=\"1\"/><Piece NumberOfPoints=\"1\"/>") ==
+    CHECK(formatProblem(kVtpTop + "<Piece NumberOfPoints=\"1\"/><Piece NumberOfPoints=\"1\"/>") ==
           "a.dat:4: has several pieces; save it as one");
-    CHECK(problemOf(kVtpTop + "<Piece NumberOfPoints=\"1\"/></VTKFile>") == "a.dat: has no Points");
-    CHECK(problemOf(kVtpTop + "</VTKFile>") == "a.dat: has no Piece");
-    CHECK(problemOf(kVtpTop) == "a.dat: the file ends before </VTKFile>");
-    CHECK(problemOf(kVtpTop + "<Piece NumberOfPoints=1/>") ==
+    CHECK(formatProblem(kVtpTop + "<Piece NumberOfPoints=\"1\"/></VTKFile>") == "a.dat: has no Points");
+    CHECK(formatProblem(kVtpTop + "</VTKFile>") == "a.dat: has no Piece");
+    CHECK(formatProblem(kVtpTop) == "a.dat: the file ends before </VTKFile>");
+    CHECK(formatProblem(kVtpTop + "<Piece NumberOfPoints=1/>") ==
           "a.dat:4: the value of NumberOfPoints is not in quotation marks");
-    CHECK(problemOf(kVtpTop + "<Piece") == "a.dat:4: <Piece does not end");
-    CHECK(problemOf("<!-- ") == "a.dat:1: a comment or declaration does not end");
+    CHECK(formatProblem(kVtpTop + "<Piece") == "a.dat:4: <Piece does not end");
+    CHECK(formatProblem("<!-- ") == "a.dat:1: a comment or declaration does not end");
     const std::string compressed =
         replaced(vtp("<DataArray type=\"Int8\" Name=\"radius\" format=\"binary\">AAAA</DataArray>"), "byte_order",
                  "compressor=\"vtkZLibDataCompressor\" byte_order");
-    CHECK(problemOf(compressed).find("a.dat:8: radius: is compressed; save it without compression") == 0);
+    CHECK(formatProblem(compressed).find("a.dat:8: radius: is compressed; save it without compression") == 0);
 }

@@ -7,7 +7,6 @@
 
 #include "scenes/build/library.h"
 #include "scenes/build/read_scene.h"
-#include "scenes/warnings/start_warnings.h"
 
 using engine::Vec3;
 
@@ -61,19 +60,6 @@ TEST_CASE("the scenes of docs/ load, and the README shows the first of them as i
     CHECK(loaded >= 2);
     const std::string shown = "```toml\n" + textOf(docs / "first.toml") + "```";
     CHECK(textOf(docs.parent_path() / "README.md").find(shown) != std::string::npos);
-}
-
-TEST_CASE("the large scenes load, are large, and start with particles where they are meant to be") {
-    const std::vector<scenes::LibraryEntry> entries = scenes::listScenes(GLOBULAR_SOURCE "/scenes/large");
-    CHECK(entries.size() == 3);
-    for (const scenes::LibraryEntry& entry : entries) {
-        INFO(entry.name);
-        CHECK(!entry.title.empty());
-        CHECK(textOf(entry.path).substr(0, 2) == "# ");
-        const scenes::Scene scene = scenes::loadScene(entry.path, {});
-        CHECK(scene.setup.initial.count() > 100000);
-        CHECK(scenes::startWarnings(scene).empty());
-    }
 }
 
 TEST_CASE("every shipped scene opens with a comment") {
