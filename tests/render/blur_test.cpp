@@ -295,8 +295,8 @@ TEST_CASE("Blurred pictures are those of the oracle", "[blur]") {
     const By by = GENERATE(from_range(renderers()));
     const View view = movingCloud(60, 3);
     const render::Image image = drawn(by, view, kSize, Quality::final);
-    // The oracle sees the same nine moments, each through 36 points of the lens.
-    const Difference difference = compare(image, blurredByOracle(view, 6), 40);
+    // The oracle sees the same nine moments, each through 16 points of the lens.
+    const Difference difference = compare(image, blurredByOracle(view, 4), 40);
     const Difference ofSharp = [&] {
         View sharp = view;
         sharp.shutter.reset();
@@ -310,7 +310,7 @@ TEST_CASE("Blurred pictures are those of the oracle", "[blur]") {
 }
 
 TEST_CASE("More samples come nearer to the limit of many moments and points of the lens", "[blur]") {
-    const View dense = movingCloud(25, 12);
+    const View dense = movingCloud(25, 8);
     const render::Image limit = blurredByOracle(dense, 2);
     std::vector<double> errors;
     for (const int perAxis : {2, 3, 6})
