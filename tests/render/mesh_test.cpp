@@ -231,7 +231,7 @@ TEST_CASE("Fields with every kind of touching surfaces give closed meshes", "[me
     }
 }
 
-TEST_CASE("A level pool keeps its volume", "[mesh]") {
+TEST_CASE("A level pool keeps its volume", "[mesh][long]") {
     if (lacksOpenVdb()) return;
     render::View appearance;
     appearance.style = render::Style::metaballs;

@@ -9,7 +9,7 @@
 #include "scenes/build/read_scene.h"
 #include "scenes/warnings/start_warnings.h"
 
-TEST_CASE("the large scenes load, are large, and start with particles where they are meant to be") {
+TEST_CASE("the large scenes load, are large, and start with particles where they are meant to be", "[long]") {
     const std::vector<scenes::LibraryEntry> entries = scenes::listScenes(GLOBULAR_SOURCE "/scenes/large");
     CHECK(entries.size() == 3);
     for (const scenes::LibraryEntry& entry : entries) {

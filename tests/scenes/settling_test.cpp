@@ -163,7 +163,7 @@ TEST_CASE("a column sinks as far as predicted", "[settling]") {
     }
 }
 
-TEST_CASE("pools of the built-in scenes keep nine tenths of their volume", "[settling]") {
+TEST_CASE("pools of the built-in scenes keep nine tenths of their volume", "[settling][long]") {
     // The areas of the tank and of the mold, m^2.
     for (const auto& [name, area] : std::map<std::string, double>{{"gate", 8.6 * 2.4}, {"molten-metal", 3.3 * 1.0}}) {
         const std::string path = GLOBULAR_SOURCE "/scenes/library/" + name + ".toml";
