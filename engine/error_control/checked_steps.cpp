@@ -6,6 +6,7 @@
 
 #include "engine/error_control/step_control.h"
 #include "engine/error_control/step_cost.h"
+#include "engine/heat/heat_moment.h"
 #include "engine/state/state_checks.h"
 #include "engine/stepping/obstacle_loads.h"
 #include "engine/stepping/population.h"
@@ -43,10 +44,10 @@ void checkIntervalEnd(Simulation& simulation, double time) {
     establishEnergy(simulation, time);
 }
 
-/// The latest time at which the next step must end, s: the requested time, or an emission before it. A step across an
-/// emission would leave the new particle without forces until the start of the next step.
+/// The latest time at which the next step must end, s: the requested time, or an emission or an exchange of heat before
+/// it. A step across an emission would leave the new particle without forces until the start of the next step.
 double nextStop(const Simulation& simulation, double time) {
-    const double stop = nextEmission(simulation);
+    const double stop = std::min(nextEmission(simulation), nextHeatMoment(simulation));
     return stop < time - kSameMoment ? stop : time;
 }
 
@@ -60,6 +61,9 @@ class History {
     }
 
     const SavedState& latest() const { return states_.back(); }
+
+    /// Forgets all states, after a change that cannot be taken back.
+    void clear() { states_.clear(); }
 
     /// Restores the latest saved state or, if `further`, the state before that.
     void goBack(Simulation& simulation, bool further) {
@@ -81,6 +85,7 @@ bool advanceChecked(Simulation& simulation, double time, double longest, StepLim
     emitDue(simulation);
     simulation.cache->work = simulation.cache->workAtEnergy = 0.0;  // as in a run that is resumed here
     if (!simulation.cache->energy) establishEnergy(simulation, simulation.time);
+    simulation.cache->energyAtHeat = *simulation.cache->energy;
     const double passesBefore = forceEvaluationsOf(simulation);
     while (simulation.time < time) {
         if (forceEvaluationsOf(simulation) - passesBefore > mostEvaluations) return false;
@@ -94,7 +99,8 @@ bool advanceChecked(Simulation& simulation, double time, double longest, StepLim
         const double h = remaining / count;
         history.add(simulation);
         takeStep(simulation, h);
-        if (count == 1.0 && stop == time) checkIntervalEnd(simulation, stop);
+        const bool isHeatDue = count == 1.0 && isHeatDueAt(simulation, stop);
+        if (count == 1.0 && (stop == time || isHeatDue)) checkIntervalEnd(simulation, stop);
         std::optional<StepLimit> rejection = rejectionReason(simulation, history.latest());
         std::optional<double> estimate;
         if (errors != nullptr && !rejection) {
@@ -119,6 +125,11 @@ bool advanceChecked(Simulation& simulation, double time, double longest, StepLim
             control(errors->steps, simulation.stepper, h, *estimate, errors->wanted);
         }
         simulation.time = count == 1.0 ? stop : simulation.time + h;
+        if (isHeatDue) {
+            if (exchangeHeatDue(simulation)) establishEnergy(simulation, simulation.time);
+            simulation.cache->energyAtHeat = *simulation.cache->energy - simulation.cache->workAtEnergy;
+            history.clear();
+        }
         emitDue(simulation);
         if (++restriction.passed % kAcceptedBeforeLonger == 0) restriction.seconds *= 2.0;
     }

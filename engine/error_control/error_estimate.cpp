@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "engine/error_control/checked_steps.h"
+#include "engine/error_control/equal_steps.h"
 #include "engine/error_control/step_cost.h"
 #include "engine/ranks/exact_sums.h"
 #include "engine/stepping/step_cache.h"
-#include "engine/stepping/symplectic_euler.h"
 #include "engine/stepping/take_step.h"
 
 namespace engine {

@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "engine/force_law/thermal.h"
+
 namespace engine {
 
 /// A material: the constants of equations 2, 5 and 6 of the paper, and the radius and mass of its particles.
@@ -21,6 +23,7 @@ struct Material {
     double dampingReach = 2.0;    ///< reach c_d of the damping, in rest lengths
     double friction = 0.0;        ///< friction coefficient mu; the paper has no friction
     double coreFraction = 0.25;   ///< core distance in rest lengths, below which the force is linear
+    Thermal thermal = {};         ///< the paper has no heat
 };
 
 /// All presets: the rows of Table 1 in its order (liquid, solid, powder, fountain), then the substances that the paper

@@ -64,6 +64,7 @@ double cutoffRatio(const std::vector<Material>& materials) {
         // The reaches of a mixture lie between the reaches of its two materials.
         ratio = std::max(ratio, material.repulsionReach);
         if (material.damping > 0.0) ratio = std::max(ratio, material.dampingReach);
+        if (material.thermal.exists()) ratio = std::max(ratio, kConductingReach);
     }
     return ratio;
 }

@@ -122,15 +122,37 @@ bool ForceEvaluator::hasNoNeighbor(const std::vector<Vec3>& positions, const std
     return true;
 }
 
+const PairTraversal& ForceEvaluator::preparePairs(const Particles& particles) {
+    pairs_.prepare(field_, particles, particles.velocity);
+    pairs_.packParticles(particles, particles.velocity);
+    return pairs_;
+}
+
+void ForceEvaluator::shareNumbers(const std::vector<double>& own, std::vector<double>& combined) const {
+    if (!pairs_.ranks->areMany())
+        combined = own;
+    else
+        share(*pairs_.ranks, pairs_.withGhosts.halo, own, combined);
+}
+
+void ForceEvaluator::shareMaterials(const std::vector<std::uint32_t>& own, std::vector<std::uint32_t>& combined) const {
+    if (!pairs_.ranks->areMany())
+        combined = own;
+    else
+        share(*pairs_.ranks, pairs_.withGhosts.halo, own, combined);
+}
+
+void ForceEvaluator::renewMaterials(const Particles& particles) {
+    if (pairs_.ranks->areMany()) shareMaterials(particles.material, pairs_.withGhosts.particles.material);
+}
+
 void ForceEvaluator::addGravity(const Particles& particles, std::vector<Vec3>& forces) const {
     inParallel(particles.count(), kParticleGrain,
                [&](std::size_t p) { forces[p] += particles.mass[p] * field_.gravity; });
 }
 
 double ForceEvaluator::pairEnergyGrid(const Particles& particles) {
-    pairs_.prepare(field_, particles, particles.velocity);
-    pairs_.packParticles(particles, particles.velocity);
-    return pairEnergySum(pairs_);
+    return pairEnergySum(preparePairs(particles));
 }
 
 }  // namespace engine

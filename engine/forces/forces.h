@@ -97,6 +97,18 @@ class ForceEvaluator {
     /// Sum of the energies of the pairs in the neighbor list (conservative part of the force), in joules.
     double pairEnergyGrid(const Particles& particles);
 
+    /// The pairs of the particles as they are, for passes over neighbors that compute something else than forces. In
+    /// double precision.
+    const PairTraversal& preparePairs(const Particles& particles);
+
+    /// Brings a number of each particle, and those of ghosts from their ranks, into the combined order of
+    /// PairTraversal's lists, which is that of the particles in a run in one process. After preparePairs().
+    void shareNumbers(const std::vector<double>& own, std::vector<double>& combined) const;
+    void shareMaterials(const std::vector<std::uint32_t>& own, std::vector<std::uint32_t>& combined) const;
+
+    /// Tells the ghosts' ranks that particles have got other materials.
+    void renewMaterials(const Particles& particles);
+
     const ForceField& forceField() const { return field_; }
 
  private:

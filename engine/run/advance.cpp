@@ -3,11 +3,11 @@
 
 #include "engine/error_control/auto_stepper.h"
 #include "engine/error_control/checked_steps.h"
+#include "engine/error_control/equal_steps.h"
 #include "engine/run/wall_depths.h"
 #include "engine/stepping/free_groups.h"
 #include "engine/stepping/population.h"
 #include "engine/stepping/step_cache.h"
-#include "engine/stepping/symplectic_euler.h"
 
 namespace engine {
 

@@ -20,7 +20,7 @@ static_assert(std::endian::native == std::endian::little, "checkpoints are littl
 
 /// Version of the checkpoint format: kCheckpointMark in ASCII and a digit or capital, another for every change of
 /// what is stored.
-constexpr std::uint64_t kFormat = 0x43504B434C424C47;
+constexpr std::uint64_t kFormat = 0x44504B434C424C47;
 
 constexpr std::size_t kChecksumBytes = 8;
 
@@ -168,6 +168,8 @@ void exchangeCommon(Archive& archive, State& simulation) {
     exchangeAutomatic(archive, simulation.automatic);
     exchangeStatistics(archive, simulation.steps);
     archive(simulation.wallDepths.deepest, simulation.wallDepths.centersOutside);
+    auto& heat = simulation.heat;
+    archive(heat.exchangeCount, heat.owed, heat.received, heat.damped, heat.ofMelting);
     for (auto& load : simulation.loads) {
         for (int axis = 0; axis < 3; ++axis) archive(load.impulse[axis], load.angularImpulse[axis]);
         archive(load.work);

@@ -58,6 +58,7 @@ std::string stateHash(const Particles& particles) {
         add(particles.position[p]);
         add(particles.velocity[p]);
     }
+    for (const double enthalpy : particles.enthalpy) hash = fnv1a(std::bit_cast<std::uint64_t>(enthalpy), hash);
     return hexadecimal(hash);
 }
 

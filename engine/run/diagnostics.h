@@ -32,7 +32,8 @@ Vec3 linearMomentum(const Particles& particles);   ///< kg m/s
 Vec3 angularMomentum(const Particles& particles);  ///< angular momentum about the origin, kg m^2/s
 double largestSpeed(const Particles& particles);   ///< largest speed of a particle, m/s; 0 without particles
 
-/// 64-bit FNV-1a over id, position and velocity of every particle in order, as 16 hexadecimal digits.
+/// 64-bit FNV-1a over id, position and velocity of every particle in order, and the enthalpies of a run with heat, as 16
+/// hexadecimal digits.
 std::string stateHash(const Particles& particles);
 
 }  // namespace engine

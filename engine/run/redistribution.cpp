@@ -20,9 +20,10 @@ struct ParticleRecord {
 
 ParticleRecord recordOf(const Simulation& simulation, std::size_t p) {
     const Particles& particles = simulation.particles;
-    return {{particles.position[p], particles.velocity[p], particles.radius[p], particles.mass[p],
-             particles.birthTime[p], particles.material[p]},
-            particles.id[p]};
+    return {
+        {particles.position[p], particles.velocity[p], particles.radius[p], particles.mass[p], particles.birthTime[p],
+         particles.material[p], particles.enthalpy.empty() ? NewParticle{}.enthalpy : particles.enthalpy[p]},
+        particles.id[p]};
 }
 
 /// A particle with all that later steps depend on, for the migration to another rank.
@@ -154,6 +155,7 @@ void copyCommon(const Simulation& simulation, Simulation& whole) {
     whole.automatic = simulation.automatic;
     whole.steps = simulation.steps;
     whole.wallDepths = simulation.wallDepths;
+    whole.heat = simulation.heat;
     whole.loads = simulation.loads;
     whole.particles.nextId = simulation.particles.nextId;
 }

@@ -20,8 +20,19 @@ bool areFinite(const std::vector<Vec3>& vectors) {
 bool haveEqualLengths(const Simulation& simulation) {
     const std::size_t count = simulation.particles.count();
     bool areEqual = !simulation.cache->forcesCurrent || simulation.cache->forces.size() == count;
-    forEachArray(simulation.particles, [&](const auto& array) { areEqual &= array.size() == count; });
+    const bool hasHeat = simulation.setup.heat.has_value();
+    forEachArray(simulation.particles, [&](const auto& array) {
+        const bool isOfHeat = static_cast<const void*>(&array) == &simulation.particles.enthalpy;
+        areEqual &= array.size() == (isOfHeat && !hasHeat ? 0 : count);
+    });
     return areEqual;
+}
+
+/// Whether a particle may have become one of the other material: if both are stages of one that melts.
+bool isSameSubstance(const Setup& setup, std::uint32_t material, std::uint32_t other) {
+    if (material == other) return true;
+    const Melt* const melt = setup.heat ? meltOf(*setup.heat, material) : nullptr;
+    return melt != nullptr && isStage(*melt, other);
 }
 
 /// Whether a particle has the radius, mass and material that the setup gives it, at the start or by an emitter.
@@ -32,7 +43,7 @@ bool isOfSetup(const Simulation& simulation, std::size_t p) {
     if (id >= particles.nextId || (p > 0 && id <= particles.id[p - 1])) return false;
     if (id < initial.count())
         return particles.radius[p] == initial.radius[id] && particles.mass[p] == initial.mass[id] &&
-               particles.material[p] == initial.material[id];
+               isSameSubstance(simulation.setup, particles.material[p], initial.material[id]);
     const std::vector<Material>& materials = simulation.setup.materials;
     const std::uint32_t material = particles.material[p];
     return material < materials.size() && particles.radius[p] == materials[material].radius &&
@@ -80,6 +91,8 @@ const char* stateError(const Simulation& simulation) {
     if (!haveEqualLengths(simulation)) return "its arrays are of different lengths";
     if (!isInWorld(simulation.particles.position)) return "a particle is not in the world";
     if (!areFinite(simulation.particles.velocity)) return "a velocity is not finite";
+    if (!std::ranges::all_of(simulation.particles.enthalpy, [](double heat) { return std::isfinite(heat); }))
+        return "a heat is not finite";
     if (!(simulation.time >= 0.0) || !std::isfinite(simulation.time)) return "its time is not finite";
     if (!areOfSetup(simulation)) return "its particles are not the scene's";
     if (!areOnSchedule(simulation)) return "a birth is not on its schedule";

@@ -119,6 +119,11 @@ void drawEmission(const Setup& setup, const Emission& emission, double time, dou
     particle.mass = material.mass;
     particle.birthTime = time - late;
     particle.material = emitter.material;
+    if (setup.heat) {
+        const double enthalpy = enthalpyAt(material.thermal, emitter.temperature);
+        particle.enthalpy = material.mass * enthalpy;
+        particle.material = stageAt(*setup.heat, setup.materials, emitter.material, enthalpy);
+    }
     particles.clear();
     for (const Vec3& offset : clusterOf(emitter, draws)) {
         particle.position = emitter.cluster.size() == 1 ? site : Vec3(site + offset);

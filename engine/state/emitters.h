@@ -45,7 +45,8 @@ struct Emitter {
     /// is 0. From when it is due to the end of its group a particle flies freely, so that sites that emit one after
     /// another end one time step together, not one each.
     double grouping = 0.0;
-    std::uint32_t material = 0;
+    std::uint32_t material = 0;  ///< of new particles; the solid one if it melts
+    double temperature = 0.0;    ///< of new particles, K; only in a run with heat
 };
 
 /// One schedule of an emitter: when its next emission is due. An emitter has a schedule for each site, or a single

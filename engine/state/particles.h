@@ -2,8 +2,10 @@
 // id until an earlier particle is removed; what identifies a particle throughout a run is its id.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "engine/core/vec3.h"
@@ -18,13 +20,14 @@ struct Particles {
     std::vector<double> birthTime;        ///< s
     std::vector<std::uint32_t> material;  ///< index of the particle's material in the list of the setup
     std::vector<std::uint32_t> id;        ///< particles are numbered 0, 1, 2, ... in order of birth
+    std::vector<double> enthalpy;         ///< J; empty in a run without heat
     std::uint32_t nextId = 0;
 
     std::size_t count() const { return position.size(); }
 };
 
 /// Calls visit(array) for each array of the particles, in the order of their declaration. For const particles, visit
-/// gets const arrays.
+/// gets const arrays. Only the array of enthalpies may be empty.
 template <class ParticleArrays, class Visit>
 void forEachArray(ParticleArrays& particles, Visit&& visit) {
     visit(particles.position);
@@ -34,6 +37,7 @@ void forEachArray(ParticleArrays& particles, Visit&& visit) {
     visit(particles.birthTime);
     visit(particles.material);
     visit(particles.id);
+    visit(particles.enthalpy);
 }
 
 /// A particle to append. The material is an index into the materials of the setup.
@@ -44,6 +48,7 @@ struct NewParticle {
     double mass = 1.0;             ///< kg
     double birthTime = 0.0;        ///< s
     std::uint32_t material = 0;
+    double enthalpy = std::numeric_limits<double>::quiet_NaN();  ///< J; NaN in a run without heat
 };
 
 /// Appends a particle with the next id.
@@ -59,10 +64,12 @@ void keepWhere(Particles& particles, const Stays& stays) {
     std::size_t kept = 0;
     for (std::size_t p = 0; p < particles.count(); ++p) {
         if (!stays(p)) continue;
-        forEachArray(particles, [&](auto& array) { array[kept] = array[p]; });
+        forEachArray(particles, [&](auto& array) {
+            if (!array.empty()) array[kept] = array[p];
+        });
         ++kept;
     }
-    forEachArray(particles, [&](auto& array) { array.resize(kept); });
+    forEachArray(particles, [&](auto& array) { array.resize(std::min(array.size(), kept)); });
 }
 
 }  // namespace engine

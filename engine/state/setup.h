@@ -12,6 +12,7 @@
 #include "engine/obstacles/obstacles.h"
 #include "engine/state/emitters.h"
 #include "engine/state/fields.h"
+#include "engine/state/heat.h"
 #include "engine/state/particles.h"
 
 namespace engine {
@@ -50,6 +51,7 @@ struct Setup {
     double drag = 0.0;                    ///< drag coefficient k, 1/s: free motion decays like exp(-k t)
     std::vector<Field> fields;
     Obstacles obstacles;
+    std::optional<HeatSetup> heat;     ///< none for a run without heat
     std::optional<BoundingBox> world;  ///< bounds of the world; particles outside are removed
     std::vector<Emitter> emitters;
     Particles initial;  ///< particles at time zero

@@ -114,6 +114,17 @@ struct ObstacleLoad {
     double work = 0.0;                   ///< J
 };
 
+/// What a run has booked of heat. Nothing in a run without heat.
+struct HeatState {
+    std::uint64_t exchangeCount = 0;  ///< number of exchanges so far
+    /// Heat that steps owe the particles, J, below zero: where rounding has made them gain energy, the next heat of
+    /// damping pays for it.
+    double owed = 0.0;
+    double received = 0.0;   ///< from obstacles and air since the start, J
+    double damped = 0.0;     ///< kinetic and potential energy that became heat, J
+    double ofMelting = 0.0;  ///< kinetic and potential energy that changing constants took from heat, J
+};
+
 struct StepCache;
 
 /// Owns the step cache of a simulation and copies it with the simulation. The type of the cache is incomplete here, so
@@ -149,6 +160,7 @@ struct Simulation {
     AutoState automatic;
     StepStatistics steps;
     WallDepths wallDepths;
+    HeatState heat;
     std::vector<ObstacleLoad> loads;  ///< of the obstacles, in their order; empty where none are recorded
     StepCachePointer cache;
     /// Called before every step with the simulation that takes it, which is a copy in the trial runs of error

@@ -142,6 +142,7 @@ void addEnergyOfEmitted(Simulation& simulation, const Particles& emitted, const 
     const auto [kinetic, potential, pairs] = roundedOverRanks(*simulation.ranks, sums);
     simulation.cache->kinetic += kinetic;
     *simulation.cache->energy += kinetic + potential + pairs;
+    simulation.cache->energyAtHeat += kinetic + potential + pairs;
 }
 
 void save(const Simulation& simulation, SavedState& saved) {

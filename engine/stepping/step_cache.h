@@ -58,6 +58,10 @@ struct StepCache {
     double work = 0.0;
     double workAtEnergy = 0.0;  ///< the work when `energy` was recorded, J
 
+    /// Energy less work after the last exchange of heat, or at the start of the interval, J; what is missing of it at
+    /// the next exchange has become heat. Not used in a run without heat.
+    double energyAtHeat = 0.0;
+
     double predictionError = 0.0;  ///< RMS of velocity Verlet's error in predicting velocities, radii per second
     /// Mean accelerations of the particles over the last step, m/s^2, and its length, s. For the steppers that estimate
     /// their error from their change; empty where the last step was taken back.

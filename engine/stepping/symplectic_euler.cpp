@@ -1,4 +1,4 @@
-// The paper's stepper: the forces on all particles, then the update of velocities and positions.
+// The forces on all particles, then the update of velocities and positions.
 #include "engine/stepping/symplectic_euler.h"
 
 #include "engine/core/exp_negative.h"
@@ -10,9 +10,7 @@
 #include "engine/stepping/drift.h"
 #include "engine/stepping/kick_drift.h"
 #include "engine/stepping/obstacle_loads.h"
-#include "engine/stepping/population.h"
 #include "engine/stepping/step_cache.h"
-#include "engine/stepping/take_step.h"
 
 namespace engine {
 namespace {
@@ -70,27 +68,6 @@ bool symplecticEulerStep(Simulation& simulation, double h) {
                                         });
     if (hasScaledWalls) recordHeld(simulation);
     return holdsOnAll(*simulation.ranks, areValid);
-}
-
-void advanceInEqualSteps(Simulation& simulation, double time) {
-    const double from = simulation.time;
-    const double count = stepCount(time - from, simulation.setup.step);
-    const double h = (time - from) / count;
-    if (simulation.steps.count == 0) requireValid(simulation, h);  // the states after later steps are validated below
-    for (double step = 0.0; step < count; step += 1.0) {
-        simulation.time = from + step * h;
-        if (simulation.beforeStep) simulation.beforeStep(simulation);
-        emitDue(simulation);
-        kickBefore(simulation, h);
-        const bool areAllValid = symplecticEulerStep(simulation, h);
-        if (areAllValid) kickAfter(simulation, h);
-        record(simulation.steps, h, StepLimit::fixed, simulation.stepper);
-        addUpLoads(simulation);
-        acceptLoads(simulation);
-        if (!areAllValid) requireValid(simulation, h);
-    }
-    simulation.time = time;
-    emitDue(simulation);
 }
 
 }  // namespace engine

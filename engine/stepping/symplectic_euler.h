@@ -1,5 +1,4 @@
-// The paper's stepper, symplectic Euler, and a loop of equal steps of it to a point in time. No step is audited. Called
-// by advance(), and by the error estimate.
+// The paper's stepper, symplectic Euler.
 #pragma once
 
 #include "engine/state/simulation.h"
@@ -10,10 +9,5 @@ namespace engine {
 /// multiplies v in between, as published. Returns whether all positions and velocities are valid afterwards (see
 /// state_checks.h).
 bool symplecticEulerStep(Simulation& simulation, double h);
-
-/// Advances the simulation to the given time (s) by equal steps of the paper's stepper that are no longer than the
-/// setup's step. No step is audited or taken back.
-/// @throws InstabilityError if a position or velocity becomes infinite, NaN or too large for the engine
-void advanceInEqualSteps(Simulation& simulation, double time);
 
 }  // namespace engine

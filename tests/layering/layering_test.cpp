@@ -55,8 +55,8 @@ const std::map<std::string, std::set<std::string>> kForbiddenHeaders = {
 /// itself stands for the files that lie in no room.
 const std::map<std::string, std::vector<std::string>> kRooms = {
     {"engine",
-     {"engine/run", "engine/error_control", "engine/stepping", "engine/forces", "engine/neighbors", "engine/state",
-      "engine/ranks", "engine/obstacles", "engine/shapes", "engine/force_law", "engine/core"}},
+     {"engine/run", "engine/error_control", "engine/heat", "engine/stepping", "engine/forces", "engine/neighbors",
+      "engine/state", "engine/ranks", "engine/obstacles", "engine/shapes", "engine/force_law", "engine/core"}},
     {"render",
      {"render",
       "render/opengl",

@@ -1,0 +1,197 @@
+// Visits the neighbors of every particle twice: to count its ways, and to fill them in.
+#include "engine/heat/heat_network.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/obstacles/obstacle_surfaces.h"
+#include "engine/state/probe.h"
+
+namespace engine {
+namespace {
+
+constexpr double kReachSq = kConductingReach * kConductingReach;
+
+/// 1 - x^2/1.5^2 of two particles that touch, and of those at the second distance of closest packing.
+constexpr double kTouchingWeight = 1.0 - 1.0 / kReachSq;
+constexpr double kNextWeight = 1.0 - 2.0 / kReachSq;
+
+/// The weights of all neighbors in closest packing.
+constexpr double kAllWeights = 12.0 * kTouchingWeight + 6.0 * kNextWeight;
+
+double weightAt(double distanceRatioSq) {
+    return std::max(0.0, 1.0 - distanceRatioSq / kReachSq);
+}
+
+/// Conductance over conductivity and rest length, from the square of the distance in rest lengths. In closest packing,
+/// where the volume of a particle is D0^3/sqrt(2), x_j^2 sums to 4 D0^2 over the neighbors of either distance.
+double conductanceOverRest(double distanceRatioSq) {
+    constexpr double kOfLattice = 2.0 * std::numbers::sqrt2 * (kTouchingWeight + kNextWeight);
+    return weightAt(distanceRatioSq) / kOfLattice;
+}
+
+double harmonicMean(double a, double b) {
+    return a + b > 0.0 ? 2.0 * a * b / (a + b) : 0.0;
+}
+
+/// Half of the power with which damping and friction of a pair make heat, W.
+double halfDissipation(const PackedParticle& p, const PackedParticle& i, const Vec3& separation, double distanceSq,
+                       const PairConstants<double>& constants) {
+    const Vec3 velocity(p.vx - i.vx, p.vy - i.vy, p.vz - i.vz);
+    const double approach = dot(velocity, separation);
+    double power = pairDampingOverSq(distanceSq, constants) * approach * approach;
+    if (constants.friction > 0.0) {
+        const double push = pairCoefficient<kConservative>(distanceSq, 0.0, constants) * std::sqrt(distanceSq);
+        const double slipSq = std::max(0.0, squaredLength(velocity) - approach * approach / distanceSq);
+        power += slipDamping(constants.friction, push, slipSq) * slipSq;
+    }
+    return 0.5 * power;
+}
+
+/// Fills in a network, particle by particle.
+class Finder {
+ public:
+    Finder(const PairTraversal& pairs, const Particles& particles, HeatNetwork& network)
+        : pairs_(pairs), particles_(particles), network_(network) {}
+
+    void countWays() {
+        network_.begin.assign(particles_.count() + 1, 0);
+        forEachOwn([&](std::size_t laneSlot, std::uint32_t p) {
+            std::size_t count = 0;
+            forEachConducting(laneSlot, [&](std::uint32_t, const Vec3&, double, double) { ++count; });
+            network_.begin[p + 1] = count;
+        });
+        for (std::size_t p = 0; p < particles_.count(); ++p) network_.begin[p + 1] += network_.begin[p];
+        network_.other.resize(network_.begin.back());
+        network_.conductance.resize(network_.begin.back());
+        for (auto* array :
+             {&network_.conductanceToOthers, &network_.conductanceOutside, &network_.inflow, &network_.dissipation})
+            array->assign(particles_.count(), 0.0);
+    }
+
+    /// @param addOutside  addOutside(p, cover) adds what particle p exchanges with obstacles and air
+    template <class AddOutside>
+    void fillWays(const AddOutside& addOutside) {
+        forEachOwn([&](std::size_t laneSlot, std::uint32_t p) {
+            Cover cover;
+            std::size_t way = network_.begin[p];
+            const PackedParticle& own = packedAt(laneSlot);
+            double sum = 0.0;
+            forEachConducting(laneSlot, [&](std::uint32_t other, const Vec3& separation, double ratioSq, double rest) {
+                const PackedParticle& neighbor = pairs_.packed[other];
+                const double conductivity = harmonicMean(thermalOf(own).conductivity, thermalOf(neighbor).conductivity);
+                network_.other[way] = pairs_.list.order[other];
+                network_.conductance[way] = conductivity * rest * conductanceOverRest(ratioSq);
+                sum += network_.conductance[way++];
+                const double weight = weightAt(ratioSq) / kAllWeights;
+                cover.weight += weight;
+                cover.side += weight / (std::sqrt(ratioSq) * rest) * separation;
+            });
+            network_.conductanceToOthers[p] = sum;
+            pairs_.forEachNeighbor(laneSlot, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
+                const PackedParticle& neighbor = pairs_.packed[other];
+                network_.dissipation[p] +=
+                    halfDissipation(own, neighbor, separation, distanceSq, pairs_.constants(own, neighbor));
+            });
+            addOutside(p, cover);
+        });
+    }
+
+ private:
+    template <class Body>
+    void forEachOwn(const Body& body) const {
+        pairs_.forEachParticle([&](std::size_t laneSlot) {
+            const std::uint32_t p = pairs_.order()[pairs_.sortedIndexAt(laneSlot)];
+            if (p != kGhost) body(laneSlot, p);
+        });
+    }
+
+    /// Calls visit(sorted index, P, D^2/D0^2, D0) for the neighbors that conduct.
+    template <class Visit>
+    void forEachConducting(std::size_t laneSlot, const Visit& visit) const {
+        const PackedParticle& own = packedAt(laneSlot);
+        pairs_.forEachNeighbor(laneSlot, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
+            const double rest = own.radius + pairs_.packed[other].radius;
+            const double ratioSq = distanceSq / (rest * rest);
+            if (ratioSq < kReachSq) visit(other, separation, ratioSq, rest);
+        });
+    }
+
+    const PackedParticle& packedAt(std::size_t laneSlot) const { return pairs_.packed[pairs_.sortedIndexAt(laneSlot)]; }
+
+    const Thermal& thermalOf(const PackedParticle& particle) const {
+        return pairs_.materials[particle.material].thermal;
+    }
+
+    const PairTraversal& pairs_;
+    const Particles& particles_;
+    HeatNetwork& network_;
+};
+
+/// Conductance to the air over the free area at this temperature (K), W/(m^2 K). Radiation is that of the temperature
+/// at the start: eps sigma (T_air^4 - T^4) = eps sigma (T_air^2 + T^2) (T_air + T) (T_air - T).
+double exchangeWithAir(const Air& air, double temperature) {
+    const double squares = air.temperature * air.temperature + temperature * temperature;
+    return air.exchange + air.emissivity * kStefanBoltzmann * squares * (air.temperature + temperature);
+}
+
+/// Adds what one particle exchanges with the obstacles, which are part of its cover.
+void addWalls(const Obstacles& obstacles, const HeatSetup& heat, const Thermal& thermal, const Probe& probe,
+              std::size_t p, Cover& cover, HeatNetwork& network) {
+    const double reach = kConductingReach * probe.radius;
+    forEachSurface(obstacles, probe.position, probe.time, reach, [&](const Surface& surface) {
+        if (surface.height >= reach) return;
+        // A wall is in the place of three neighbors of either distance in a layer of closest packing.
+        const double weight = weightAt(std::max(0.0, surface.height * surface.height) / (probe.radius * probe.radius)) /
+                              kTouchingWeight * (3.0 * kTouchingWeight + 3.0 * kNextWeight) / kAllWeights;
+        cover.weight += weight;
+        cover.side += weight * (std::numbers::sqrt2 / std::numbers::sqrt3) * surface.normal;
+        if (surface.obstacle >= heat.obstacles.size() || !heat.obstacles[surface.obstacle]) return;
+        const double conductance = conductanceToWall(thermal.conductivity, probe.radius, surface.height);
+        network.conductanceOutside[p] += conductance;
+        network.inflow[p] += conductance * *heat.obstacles[surface.obstacle];
+    });
+}
+
+}  // namespace
+
+double conductanceAt(double distanceRatio) {
+    return conductanceOverRest(distanceRatio * distanceRatio);
+}
+
+double conductanceToWall(double conductivity, double radius, double height) {
+    const double ratio = std::max(0.0, height) / radius;
+    const double contact = std::min(1.0, weightAt(ratio * ratio) / kTouchingWeight);
+    return 2.0 * std::numbers::sqrt3 * conductivity * radius * contact;
+}
+
+double freeArea(double radius, const Cover& cover) {
+    // The cover's side in a flat surface of closest packing: three neighbors of either distance are missing, at cosines
+    // of sqrt(2/3) and sqrt(1/3).
+    constexpr double kFlat =
+        (3.0 * kTouchingWeight * 0.816496580927726 + 3.0 * kNextWeight * 0.5773502691896258) / kAllWeights;
+    constexpr double kFlatArea = 2.0 * std::numbers::sqrt3;  // in squared radii
+    constexpr double kWholeArea = 4.0 * std::numbers::pi;
+    const double ofSurface = kFlatArea * std::sqrt(squaredLength(cover.side)) / kFlat;
+    const double ofLone = kWholeArea * std::max(0.0, 1.0 - 2.0 * cover.weight);
+    return radius * radius * std::min(kWholeArea, std::max(ofSurface, ofLone));
+}
+
+void findNetwork(const PairTraversal& pairs, const Particles& particles, const Obstacles& obstacles,
+                 const HeatSetup& heat, const std::vector<double>& temperature, double time, HeatNetwork& network) {
+    Finder finder(pairs, particles, network);
+    finder.countWays();
+    finder.fillWays([&](std::uint32_t p, Cover& cover) {
+        const Thermal& thermal = pairs.materials[particles.material[p]].thermal;
+        const Probe probe = probeOf(pairs.materials, particles, p, particles.velocity[p], time);
+        if (!obstacles.shapes.empty()) addWalls(obstacles, heat, thermal, probe, p, cover, network);
+        const double toAir = exchangeWithAir(heat.air, temperature[p]);
+        if (toAir == 0.0) return;
+        const double conductance = toAir * freeArea(probe.radius, cover);
+        network.conductanceOutside[p] += conductance;
+        network.inflow[p] += conductance * heat.air.temperature;
+    });
+}
+
+}  // namespace engine
