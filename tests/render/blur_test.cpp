@@ -291,7 +291,7 @@ TEST_CASE("What lies in focus beside the picture's middle stays there through ev
     }
 }
 
-TEST_CASE("Blurred pictures are those of the oracle", "[blur]") {
+TEST_CASE("Blurred pictures are those of the oracle", "[blur][long]") {
     const By by = GENERATE(from_range(renderers()));
     const View view = movingCloud(60, 3);
     const render::Image image = drawn(by, view, kSize, Quality::final);
@@ -309,7 +309,7 @@ TEST_CASE("Blurred pictures are those of the oracle", "[blur]") {
     CHECK(ofSharp.mean > 2.0 * difference.mean);
 }
 
-TEST_CASE("More samples come nearer to the limit of many moments and points of the lens", "[blur]") {
+TEST_CASE("More samples come nearer to the limit of many moments and points of the lens", "[blur][long]") {
     const View dense = movingCloud(25, 8);
     const render::Image limit = blurredByOracle(dense, 2);
     std::vector<double> errors;

@@ -44,7 +44,7 @@ TEST_CASE("The eye among hundreds of boxes") {
     CHECK(difference.share <= 10.0 / kPixels);  // on outlines, as above
 }
 
-TEST_CASE("The soft shadows of hundreds of boxes are the oracle's, from above and at a grazing angle") {
+TEST_CASE("The soft shadows of hundreds of boxes are the oracle's, from above and at a grazing angle", "[long]") {
     const By by = GENERATE(from_range(renderers()));
     CAPTURE(by);
     for (const glm::vec3 toLight : {glm::vec3(0.5F, 0.8F, 0.3F), glm::vec3(0.0F, 1.0F, 0.0F),
@@ -187,7 +187,7 @@ TEST_CASE("OpenGL draws the shadows of boxes where pixels are wide as the CPU do
 }
 #endif
 
-TEST_CASE("Pixels at the outline of a box show it by the share that it covers, not by four samples alone") {
+TEST_CASE("Pixels at the outline of a box show it by the share that it covers, not by four samples alone", "[long]") {
     const By by = GENERATE(from_range(renderers()));
     CAPTURE(by);
     render::View view;

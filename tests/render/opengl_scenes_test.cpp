@@ -74,7 +74,7 @@ bool isSeenThrough(const render::View& view) {
 
 }  // namespace
 
-TEST_CASE("Both renderers draw the same picture of every built-in scene", "[opengl]") {
+TEST_CASE("Both renderers draw the same picture of every built-in scene", "[opengl][long]") {
     for (const scenes::LibraryEntry& entry : scenes::listScenes(GLOBULAR_SOURCE "/scenes/library")) {
         if (entry.name.starts_with("measured/")) continue;  // earlier versions of other scenes
         const scenes::Scene scene = sceneOf(entry, "spheres");

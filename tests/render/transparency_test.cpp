@@ -84,7 +84,7 @@ TEST_CASE("A surface between media mirrors alike from both sides, and everything
     CHECK(render::mirroredShare(1.5F, 1.0F, critical) == Approx(1.0).margin(2e-3));  // the root of a rounding of 1e-7
 }
 
-TEST_CASE("Rays of any direction cross the surface of metaballs where the oracle's do") {
+TEST_CASE("Rays of any direction cross the surface of metaballs where the oracle's do", "[long]") {
     for (const render::Skin skin : {render::Skin::plain, render::Skin::smooth, render::Skin::anisotropic}) {
         render::View view = water();
         view.field.skin = skin;
@@ -131,7 +131,7 @@ TEST_CASE("Rays of any direction cross the surface of metaballs where the oracle
     }
 }
 
-TEST_CASE("Pictures of transparent bodies are the oracle's") {
+TEST_CASE("Pictures of transparent bodies are the oracle's", "[long]") {
     struct Case {
         std::string name;
         std::function<render::View()> view;

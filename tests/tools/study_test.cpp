@@ -128,7 +128,7 @@ TEST_CASE("A study of pictures that is interrupted leaves the rows that it has r
 
 TEST_CASE("The study of pictures writes its table, plots and a page, and leaves no video behind", "[tools]") {
     const program::Folder folder;
-    const std::string command = "study pictures --particles 100 200 --size 128x72 --quick --threads 1";
+    const std::string command = "study pictures --particles 100 200 --size 256x144 --quick --threads 1";
     const auto outcome = run(command + " -o " + (folder / "pictures").string());
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
