@@ -39,7 +39,7 @@ build release globular globular-mpi {engine,golden,memory,mesh,render,scenes}_te
 # Processes that wait for each other take four times as long beside a build.
 ctest --preset release -R '^mpi_tests$'
 # The kill harness sleeps most of the time: beside the next build.
-ctest --preset release --parallel 2 -R '^(engine|golden|memory|mesh|render|scenes|kill|hard_cases|slurm|parallel|openjd)_tests$' &
+ctest --preset release --parallel 2 -R '^(engine|golden|memory|mesh_long|render_long|scenes_long|kill|hard_cases|slurm|parallel|openjd)_tests$' &
 build tsan
 wait $!
 # In parallel runs sanitized suites keep to a core each: this one, too, though it is alone. Beside the build, because beside

@@ -29,13 +29,13 @@ void bookLostEnergy(Simulation& simulation, const HeatNetwork& network) {
     state.owed = std::min(heat, 0.0);
     if (!(heat > 0.0)) return;
     Particles& particles = simulation.particles;
-    const auto [power, mass] = exactSums<2>(*simulation.ranks, particles.count(), [&](std::size_t p) {
+    const std::array<double, 2> sums = exactSums<2>(*simulation.ranks, particles.count(), [&](std::size_t p) {
         return std::array{network.dissipation[p], particles.mass[p]};
     });
     // Where nothing is damped at this moment, all have a share.
-    const bool isDamped = power > 0.0;
+    const bool isDamped = sums[0] > 0.0;
     inParallel(particles.count(), kParticleGrain, [&](std::size_t p) {
-        particles.enthalpy[p] += heat * (isDamped ? network.dissipation[p] / power : particles.mass[p] / mass);
+        particles.enthalpy[p] += heat * (isDamped ? network.dissipation[p] / sums[0] : particles.mass[p] / sums[1]);
     });
     state.damped += heat;
 }

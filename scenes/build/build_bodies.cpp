@@ -86,6 +86,7 @@ engine::NewParticle prototypeOf(const Body& body) {
     particle.radius = body.section.number("particle_radius");
     particle.mass = body.section.number("particle_mass");
     particle.material = body.material;
+    particle.enthalpy = enthalpyOf(body.section, body.materials, body.material, particle.mass);
     return particle;
 }
 
@@ -176,6 +177,12 @@ void appendFileParticle(const Body& body, const ParticleFile& file, std::size_t 
     particle.mass = section.has("particle_mass") ? section.number("particle_mass")
                     : file.hasMass               ? file.particles.mass[index]
                                                  : material.mass;
+    particle.enthalpy = enthalpyOf(section, body.materials, particle.material, particle.mass);
+    const bool usesFileHeat = material.thermal.exists() && !section.has("temperature");
+    if (usesFileHeat && !file.particles.enthalpy.empty())
+        particle.enthalpy = file.particles.enthalpy[index];
+    else if (usesFileHeat && !file.temperature.empty())
+        particle.enthalpy = particle.mass * engine::enthalpyAt(material.thermal, file.temperature[index]);
     append(particles, particle);
 }
 
@@ -199,6 +206,9 @@ void appendFile(const Body& body, BuildContext& context, engine::Particles& part
                     "{}: particle {} is of material {}, the scene has {} (counted from 0); name one with material",
                     path, index, file.particles.material[index], body.materials.list.size());
             appendFileParticle(body, file, index, particles);
+            if (!particles.enthalpy.empty() && !(particles.enthalpy.back() >= 0.0))
+                return report(section, "file", context,
+                              "{}: particle {} is colder than 0 K; give the body a temperature", path, index);
         }
     } catch (const InputError& error) {
         section.markInvalid();

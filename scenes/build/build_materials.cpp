@@ -131,6 +131,17 @@ void settleRepulsion(Section& section, BuildContext& context) {
     if (isCompressed && !section.isGiven("compression")) section.erase("depth");
 }
 
+/// The thermal constants of a material with a heat capacity.
+engine::Thermal thermalFrom(const Section& section) {
+    engine::Thermal thermal;
+    thermal.capacity = section.number("capacity");
+    if (section.has("conductivity")) thermal.conductivity = section.number("conductivity");
+    if (section.has("melting")) thermal.melting = section.number("melting");
+    if (section.has("melting_range")) thermal.meltingRange = section.number("melting_range");
+    if (section.has("latent")) thermal.latent = section.number("latent");
+    return thermal;
+}
+
 void appendMaterial(Section& section, Materials& materials, BuildContext& context) {
     // An invalid material keeps its name, so that no body that uses it is reported for an undefined material.
     engine::Material material;
@@ -145,6 +156,7 @@ void appendMaterial(Section& section, Materials& materials, BuildContext& contex
     if (section.isValid()) {
         for (const MaterialKey& key : kMaterialKeys) material.*key.member = section.number(key.name);
         color = section.vector("color");
+        if (section.has("capacity")) material.thermal = thermalFrom(section);
     }
     materials.list.push_back(material);
     materials.colors.push_back(color);
@@ -171,7 +183,7 @@ Materials buildMaterials(std::vector<Section>& sections, const std::vector<Secti
 
 std::uint32_t materialAtRadius(Materials& materials, std::uint32_t index, double radius) {
     const engine::Material original = materials.list[index];
-    const Section& section = *materials.sections[index];
+    Section& section = *materials.sections[index];
     if (radius == original.radius) return index;
     engine::Material derived = engine::withRadius(original, radius);
     for (const MaterialKey& key : kFollowing)

@@ -70,11 +70,17 @@ CameraPlacement placementFrom(const Section& section) {
 
 void readColors(Section& section, const BuildContext& context, Look& look) {
     const std::string& colorBy = section.string("color_by");
-    look.colorBy = colorBy == "speed" ? ColorBy::speed : colorBy == "age" ? ColorBy::age : ColorBy::material;
+    look.colorBy = colorBy == "speed"         ? ColorBy::speed
+                   : colorBy == "age"         ? ColorBy::age
+                   : colorBy == "temperature" ? ColorBy::temperature
+                                              : ColorBy::material;
     if (look.colorBy == ColorBy::material) return;
-    // The speed of the last color, 5 m/s, is chosen: about the speed of a fall from 1.3 m.
-    const double high = look.colorBy == ColorBy::speed ? 5.0 : context.duration;
-    section.derive("color_range", TypedValue::ofNumbers({0.0, high}));
+    // The speed of the last color, 5 m/s, is chosen: about the speed of a fall from 1.3 m. The temperatures are those
+    // of liquid water.
+    const std::vector<double> range = look.colorBy == ColorBy::speed         ? std::vector{0.0, 5.0}
+                                      : look.colorBy == ColorBy::temperature ? std::vector{273.15, 373.15}
+                                                                             : std::vector{0.0, context.duration};
+    section.derive("color_range", TypedValue::ofNumbers(range));
     look.ramp = section.has("color_map") ? colorMap(section.string("color_map")) : section.vectors("colors");
     look.rampLow = section.numbers("color_range")[0];
     look.rampHigh = section.numbers("color_range")[1];
@@ -144,10 +150,16 @@ Vec3 contrastingInk(const Section& look) {
     return background > kMiddleGray ? Vec3(0.01, 0.01, 0.01) : Vec3(0.93, 0.93, 0.93);
 }
 
+/// Unit of the quantity that colors show.
+std::string_view unitOf(ColorBy colorBy) {
+    if (colorBy == ColorBy::temperature) return "K";
+    return colorBy == ColorBy::age ? "s" : "m/s";
+}
+
 render::ColorBar colorBarOf(const Section& section, const Look& look) {
     render::ColorBar bar;
     for (const Vec3& color : look.ramp) bar.colors.push_back(toFloat(color));
-    bar.title = fmt::format("{} ({})", section.string("color_label"), look.colorBy == ColorBy::age ? "s" : "m/s");
+    bar.title = fmt::format("{} ({})", section.string("color_label"), unitOf(look.colorBy));
     bar.ticks = ticksBetween(look.rampLow, look.rampHigh);
     return bar;
 }

@@ -25,9 +25,9 @@ namespace scenes {
 /// radius than their material's.
 struct Materials {
     std::vector<engine::Material> list;
-    std::vector<engine::Vec3> colors;      ///< of the particles, linear RGB
-    std::vector<const Section*> sections;  ///< the table that each material comes from
-    std::vector<std::string> notes;        ///< why mass, b1 and bd are what they are; empty: those of the preset
+    std::vector<engine::Vec3> colors;  ///< of the particles, linear RGB
+    std::vector<Section*> sections;    ///< the table that each material comes from
+    std::vector<std::string> notes;    ///< why mass, b1 and bd are what they are; empty: those of the preset
 };
 
 /// What the builders share.
@@ -79,6 +79,14 @@ void buildObstacles(std::vector<Section>& sections, const Section& physics, cons
 /// Adds the overlay to the look of the scene. The cameras have to be built before, because a scale bar must fit into
 /// the picture of each of them.
 void buildOverlay(Section& section, const Section& look, Scene& scene, BuildContext& context);
+/// Enthalpy of a particle of a material (J) at the temperature of its [[body]] or else of its material; NaN in a scene
+/// without heat.
+double enthalpyOf(const Section& section, const Materials& materials, std::uint32_t material, double mass);
+
+/// Adds heat to a scene that has any, after the particles, emitters and obstacles: the stages of what melts, and what
+/// exchanges heat. Records problems with keys of heat.
+void buildHeat(Sections& sections, Materials& materials, Scene& scene, BuildContext& context);
+
 Study buildStudy(Section& section, BuildContext& context);
 
 // The functions below are in build_shared.cpp and used by several of the functions above.

@@ -26,7 +26,7 @@ struct CameraPlacement {
 };
 
 /// The quantity that a particle's color shows.
-enum class ColorBy { material, speed, age };
+enum class ColorBy { material, speed, age, temperature };
 
 /// A sphere that is drawn of an obstacle. What is drawn of an obstacle is given where its shape is; the pose of the
 /// obstacle tells where that is in the scene.

@@ -21,7 +21,7 @@ struct XyzMeaning {
     std::array<std::string_view, 3> columns;  ///< empty from the number of columns on
 };
 
-constexpr std::array<XyzMeaning, 10> kXyzMeanings = {{{"pos", {"x", "y", "z"}},
+constexpr std::array<XyzMeaning, 11> kXyzMeanings = {{{"pos", {"x", "y", "z"}},
                                                       {"velo", {"vx", "vy", "vz"}},
                                                       {"vel", {"vx", "vy", "vz"}},
                                                       {"velocity", {"vx", "vy", "vz"}},
@@ -30,7 +30,8 @@ constexpr std::array<XyzMeaning, 10> kXyzMeanings = {{{"pos", {"x", "y", "z"}},
                                                       {"radii", {"radius"}},
                                                       {"mass", {"mass"}},
                                                       {"masses", {"mass"}},
-                                                      {"material", {"material"}}}};
+                                                      {"material", {"material"}},
+                                                      {"temperature", {"temperature"}}}};
 
 /// Properties that mean nothing to a new simulation.
 constexpr std::array<std::string_view, 3> kXyzIgnored = {"id", "color", "birth_time"};
@@ -143,9 +144,11 @@ std::string encodeExtxyz(const ParticleFrame& frame) {
         colors.push_back(fmt::format(" {} {} {}", bytes[0] / 255.0, bytes[1] / 255.0, bytes[2] / 255.0));
     }
     std::string text = fmt::format(
-        "{}\nProperties=species:S:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1:id:I:1:material:I:1:color:R:3:birth_time:R:1 "
+        "{}\nProperties=species:S:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1:id:I:1:material:I:1:color:R:3:birth_time:R:1{}"
+        " "
         "Time={} frame={} simulation_hash=\"{}\" materials=\"{}\" pbc=\"F F F\"\n",
-        particles.count(), frame.stamp.time, frame.stamp.frame, frame.stamp.simulationHash, fmt::join(names, ","));
+        particles.count(), frame.temperature.empty() ? "" : ":temperature:R:1", frame.stamp.time, frame.stamp.frame,
+        frame.stamp.simulationHash, fmt::join(names, ","));
     for (std::size_t index = 0; index < particles.count(); ++index) {
         text += 'X';
         const auto put = [&](auto number) {
@@ -160,6 +163,7 @@ std::string encodeExtxyz(const ParticleFrame& frame) {
         put(particles.material[index]);
         text += colors.at(particles.material[index]);
         put(particles.birthTime[index]);
+        if (!frame.temperature.empty()) put(frame.temperature[index]);
         text += '\n';
     }
     return text;

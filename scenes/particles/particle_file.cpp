@@ -31,8 +31,9 @@ constexpr std::array<std::string_view, 3> kRadiusNames = {"radius", "pscale", "p
 
 /// Properties that are read or may be left out silently: a body takes neither "birth_time", because its particles are
 /// born when the run starts, nor "id", because they get new ids in the order of the rows.
-constexpr std::array<std::string_view, 13> kReadProperties = {
-    "x", "y", "z", "vx", "vy", "vz", "radius", "pscale", "psize", "mass", "birth_time", "material", "id"};
+constexpr std::array<std::string_view, 15> kReadProperties = {
+    "x",     "y",    "z",          "vx",       "vy", "vz",       "radius",     "pscale",
+    "psize", "mass", "birth_time", "material", "id", "enthalpy", "temperature"};
 
 /// What numbers a property may have: the same as the keys of scene files that mean it.
 struct Rule {
@@ -45,6 +46,7 @@ constexpr Rule kRadius{engine::kLeastRadius, engine::kLargestRadius};
 constexpr Rule kMass{engine::kLeastMass, engine::kLargestMass};
 constexpr Rule kMaterial{0.0, std::numeric_limits<std::uint32_t>::max(), true};
 constexpr Rule kId = kMaterial;
+constexpr Rule kEnthalpy{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max()};
 constexpr Rule kTime{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max()};
 
 /// A table that was read from a file.
@@ -139,6 +141,8 @@ ParticleFile particlesOf(ParticleTable table, const std::string& fileName) {
     const NumberColumn* const radius = radiusColumn(source);
     const NumberColumn* const mass = checkedColumn(source, "mass", kMass);
     const NumberColumn* const material = checkedColumn(source, "material", kMaterial);
+    const NumberColumn* const enthalpy = checkedColumn(source, "enthalpy", kEnthalpy);
+    const NumberColumn* const temperature = table.column("temperature");
 
     ParticleFile file;
     file.hasRadius = radius != nullptr;
@@ -154,8 +158,10 @@ ParticleFile particlesOf(ParticleTable table, const std::string& fileName) {
         particle.radius = radius != nullptr ? radius->values[index] : 0.0;
         particle.mass = mass != nullptr ? mass->values[index] : 0.0;
         particle.material = material != nullptr ? static_cast<std::uint32_t>(material->values[index]) : 0;
+        if (enthalpy != nullptr) particle.enthalpy = enthalpy->values[index];
         append(file.particles, particle);
     }
+    if (temperature != nullptr) file.temperature = temperature->values;
     file.skipped = std::move(table.skipped);
     file.speciesNames = std::move(table.speciesNames);
     file.species = std::move(table.species);
@@ -169,7 +175,10 @@ std::string encodeParticles(const engine::Particles& particles, const std::optio
         fmt::format("ply\nformat binary_little_endian 1.0\ncomment globular particles\n{}element vertex {}\n",
                     commentsOf(stamp), particles.count());
     for (const std::string_view name : kRealProperties) bytes += fmt::format("property double {}\n", name);
-    bytes += "property uint material\nproperty uint id\nend_header\n";
+    const bool hasHeat = !particles.enthalpy.empty();
+    bytes += "property uint material\nproperty uint id\n";
+    if (hasHeat) bytes += "property double enthalpy\n";
+    bytes += "end_header\n";
     for (std::size_t index = 0; index < particles.count(); ++index) {
         putBytes(bytes, particles.position[index]);
         putBytes(bytes, particles.velocity[index]);
@@ -178,6 +187,7 @@ std::string encodeParticles(const engine::Particles& particles, const std::optio
         putBytes(bytes, particles.birthTime[index]);
         putBytes(bytes, particles.material[index]);
         putBytes(bytes, particles.id[index]);
+        if (hasHeat) putBytes(bytes, particles.enthalpy[index]);
     }
     return bytes;
 }

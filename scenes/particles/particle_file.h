@@ -10,6 +10,7 @@
 //   double birth_time   s, of the emission; 0 for the particles of bodies
 //   uint   material                 index into the materials of the scene
 //   uint   id                       order of emission
+//   double enthalpy     J, 0 at 0 K; only in scenes that have heat
 // A body does not take the times of birth: in a scene that starts from a file, all particles have age 0.
 #pragma once
 
@@ -35,6 +36,7 @@ struct ParticleFile {
     /// index into them. Both are empty for files without.
     std::vector<std::string> speciesNames;
     std::vector<std::uint32_t> species;
+    std::vector<double> temperature;   ///< K, of any value; empty if the file has none
     std::vector<std::string> skipped;  ///< what else the file has: names of properties and elements
 };
 

@@ -23,6 +23,7 @@ struct ParticleFrame {
     StateStamp stamp;
     std::vector<std::string> materialNames;    ///< by the index that particles have
     std::vector<engine::Vec3> materialColors;  ///< linear RGB in [0,1], one for each name
+    std::vector<double> temperature = {};      ///< of the particles, K; empty in scenes without heat
 };
 
 }  // namespace scenes

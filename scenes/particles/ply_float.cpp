@@ -18,6 +18,7 @@ std::string encodePlyFloat(const ParticleFrame& frame) {
         "comment simulation_hash {}\nelement vertex {}\n",
         frame.stamp.time, frame.stamp.frame, frame.stamp.simulationHash, particles.count());
     for (const std::string_view name : kFloats) bytes += fmt::format("property float {}\n", name);
+    if (!frame.temperature.empty()) bytes += "property float temperature\n";
     bytes +=
         "property int material\nproperty int id\nelement face 0\nproperty list uchar int vertex_indices\nend_header\n";
     for (std::size_t index = 0; index < particles.count(); ++index) {
@@ -27,6 +28,7 @@ std::string encodePlyFloat(const ParticleFrame& frame) {
         put(particles.radius[index]);
         put(particles.mass[index]);
         put(particles.birthTime[index]);
+        if (!frame.temperature.empty()) put(frame.temperature[index]);
         putBytes(bytes, static_cast<std::int32_t>(particles.material[index]));
         putBytes(bytes, static_cast<std::int32_t>(particles.id[index]));
     }

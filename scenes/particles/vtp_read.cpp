@@ -40,12 +40,13 @@ struct VtpMeaning {
     std::array<std::string_view, 3> columns;
 };
 
-constexpr std::array<VtpMeaning, 6> kVtpMeanings = {{{"velocity", {"vx", "vy", "vz"}},
+constexpr std::array<VtpMeaning, 7> kVtpMeanings = {{{"velocity", {"vx", "vy", "vz"}},
                                                      {"velocities", {"vx", "vy", "vz"}},
                                                      {"vel", {"vx", "vy", "vz"}},
                                                      {"radius", {"radius"}},
                                                      {"mass", {"mass"}},
-                                                     {"material", {"material"}}}};
+                                                     {"material", {"material"}},
+                                                     {"temperature", {"temperature"}}}};
 
 /// Data that mean nothing to a new simulation.
 constexpr std::array<std::string_view, 3> kVtpIgnored = {"id", "color", "birth_time"};

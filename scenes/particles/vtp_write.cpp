@@ -83,6 +83,7 @@ std::string encodeVtp(const ParticleFrame& frame) {
     piece += arrays.add("Float64", "radius", 1, particles.radius);
     piece += arrays.add("Float64", "mass", 1, particles.mass);
     piece += arrays.add("Float64", "birth_time", 1, particles.birthTime);
+    if (!frame.temperature.empty()) piece += arrays.add("Float64", "temperature", 1, frame.temperature);
     piece += arrays.add("UInt32", "id", 1, particles.id);
     piece += arrays.add("UInt32", "material", 1, particles.material);
     piece += arrays.add("UInt8", "color", 3, colorBytes(frame));

@@ -41,6 +41,11 @@ inline Key share(std::string_view name, std::string_view help) {
     return key(name, Type::number, "", help).within(kUnitInterval);
 }
 
+/// A key whose value is an absolute temperature.
+inline Key temperature(std::string_view name, std::string_view help) {
+    return key(name, Type::number, "K", help).within({.low = 0.0, .high = 1e5});
+}
+
 /// Keys of the inside of a transparent body, render::Medium.
 inline Key refractiveIndexKey() {
     return key("refractive_index", Type::number, "",
@@ -60,6 +65,7 @@ inline Key color(std::string_view name, std::string_view help) {
 std::vector<Key> topKeys();
 std::vector<Key> physicsKeys();
 std::vector<Key> worldKeys();
+std::vector<Key> airKeys();
 std::vector<Key> materialKeys();
 std::vector<Key> bodyKeys();
 std::vector<Key> emitterKeys();

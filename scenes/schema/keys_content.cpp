@@ -85,6 +85,8 @@ std::vector<Key> bodyKeys() {
                     "text", "image", "points", "file"}),
         key("material", Type::string, "", "name of a [[material]]")
             .derivedAs("the first; for a file, the materials in it"),
+        temperature("temperature", "temperature of its particles at first, in scenes that have heat")
+            .derivedAs("of the material"),
         velocity("velocity", "velocity of every particle, in addition to those of points and files")
             .defaultsTo("[0, 0, 0]"),
         position("center",
@@ -224,6 +226,8 @@ std::vector<Key> emitterKeys() {
             .defaultsTo("0.1")
             .within({0.0, 10.0}),
         key("material", Type::string, "", "name of a [[material]]").derivedAs("the first"),
+        temperature("temperature", "temperature of its particles when they are emitted, in scenes that have heat")
+            .derivedAs("of the material"),
     };
 }
 
@@ -306,6 +310,8 @@ std::vector<Key> obstacleKeys() {
             "stress with which the surface holds particles that touch it; not of the paper's walls")
             .defaultsTo("0")
             .within(kNotNegative),
+        temperature("temperature", "temperature that it keeps, in scenes that have heat")
+            .derivedAs("it takes no heat and gives none"),
         key("visible", Type::boolean, "", "whether the obstacle is drawn; planes never are")
             .defaultsTo("true")
             .onlyFor({"box", "container", "sphere", "cylinder", "cone", "frustum", "capsule", "revolution", "mesh"})

@@ -59,6 +59,9 @@ std::vector<Key> physicsKeys() {
             "how pairs are found: with a cell grid, or by testing every pair as in the paper")
             .defaultsTo("\"grid\"")
             .oneOf({"grid", "reference"}),
+        key("heat_step", Type::number, "s", "longest time between two exchanges of heat, in scenes that have heat")
+            .defaultsTo("0.034")
+            .within(kPositive),
         key("wall", Type::choice, "",
             "how obstacles answer: scaled to the mass, stiffness and radius of what hits them, and passed by nothing; "
             "or as in the paper, alike for all")
@@ -115,6 +118,30 @@ std::vector<Key> materialKeys() {
             .derivedAs(preset)
             .within(kOpenUnitInterval),
         color("color", "color of the particles").derivedAs("by preset").notSimulated(),
+        key("capacity", Type::number, "J/(kg K)", "specific heat capacity; gives the scene heat")
+            .derivedAs("no heat")
+            .within(kPositive),
+        key("conductivity", Type::number, "W/(m K)", "thermal conductivity").derivedAs("0").within(kNotNegative),
+        temperature("melting", "temperature at which it begins to melt").derivedAs("it does not melt"),
+        key("melting_range", Type::number, "K", "by how much warmer it is when all of it has melted")
+            .derivedAs("0")
+            .within(kNotNegative),
+        key("latent", Type::number, "J/kg", "heat that melting takes").derivedAs("0").within(kNotNegative),
+        key("melts_to", Type::string, "",
+            "name of the [[material]] with the constants and the color of the melt, taken at the radius of the solid")
+            .derivedAs("it keeps its constants"),
+        temperature("temperature", "temperature of its particles at first").derivedAs("293.15"),
+    };
+}
+
+std::vector<Key> airKeys() {
+    return {
+        temperature("temperature", "temperature of the air and of what is far away").defaultsTo("293.15"),
+        key("exchange", Type::number, "W/(m^2 K)", "heat transfer coefficient of the free surface")
+            .defaultsTo("0")
+            .within(kNotNegative),
+        share("emissivity", "share of a black body's heat radiation that the free surface gives and takes")
+            .defaultsTo("0"),
     };
 }
 

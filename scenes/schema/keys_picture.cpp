@@ -28,18 +28,18 @@ std::vector<Key> colorKeys() {
             .within({16.0, 8192.0}),
         key("color_by", Type::choice, "", "quantity that the color of a particle shows")
             .defaultsTo("\"material\"")
-            .oneOf({"material", "speed", "age"}),
+            .oneOf({"material", "speed", "age", "temperature"}),
         key("colors", Type::colorList, "", "colors from low to high, evenly spaced, interpolated in linear light")
             .defaultsTo("[\"#1f4e9e\", \"#4fb3d9\", \"#f4f1de\"]")
             .within(kUnitInterval)
-            .onlyFor({"speed", "age"}),
+            .onlyFor({"speed", "age", "temperature"}),
         key("color_map", Type::choice, "", "a perceptually uniform color map instead of colors")
             .derivedAs("colors is used")
             .oneOf(colorMapNames())
-            .onlyFor({"speed", "age"}),
-        key("color_range", Type::interval, "m/s or s", "speeds or ages of the first and the last color")
-            .derivedAs("[0, 5] for speed, [0, duration] for age")
-            .onlyFor({"speed", "age"}),
+            .onlyFor({"speed", "age", "temperature"}),
+        key("color_range", Type::interval, "m/s, s or K", "quantities of the first and the last color")
+            .derivedAs("[0, 5] for speed, [0, duration] for age, [273.15, 373.15] for temperature")
+            .onlyFor({"speed", "age", "temperature"}),
         color("background_top", "background at the upper edge of the picture").defaultsTo("\"#b4c4d4\""),
         color("background_bottom", "background at the lower edge of the picture").defaultsTo("\"#e6ebf0\""),
         color("edge_color", "color of the edges of boxes and containers").defaultsTo("[1, 0.9, 0]"),

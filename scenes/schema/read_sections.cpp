@@ -296,7 +296,7 @@ std::string missingText(const Section& section, const Key& key) {
 }
 
 std::vector<const Section*> Sections::all() const {
-    std::vector<const Section*> list = {&top, &physics, &world};
+    std::vector<const Section*> list = {&top, &physics, &world, &air};
     const auto add = [&](const Section& section) { list.push_back(&section); };
     for (const std::vector<Section>* sections : {&materials, &bodies, &emitters, &obstacles, &fields, &cameras})
         for (const Section& section : *sections) section.visitAll(add);
@@ -312,6 +312,7 @@ Sections readSections(const Document& document, ProblemList& problems) {
         .top = readOne(reader, *findTable(""), "", document.root),
         .physics = readSingle(reader, "physics"),
         .world = readSingle(reader, "world"),
+        .air = readSingle(reader, "air"),
         .look = readSingle(reader, "look"),
         .overlay = readSingle(reader, "overlay"),
         .still = readSingle(reader, "still"),

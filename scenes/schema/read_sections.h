@@ -15,6 +15,7 @@ struct Sections {
     Section top;
     Section physics;
     Section world;
+    Section air;
     Section look;
     Section overlay;
     Section still;

@@ -48,6 +48,7 @@ const std::vector<TableInfo>& tables() {
         {.name = "", .subject = "a scene", .help = "keys above the first table"},
         {.name = "physics", .subject = "[physics]", .help = "what acts on every particle, and how time is integrated"},
         {.name = "world", .subject = "[world]", .help = "bounds beyond which particles are removed, once per frame"},
+        {.name = "air", .subject = "[air]", .help = "the air around the particles, in scenes that have heat"},
         {.name = "material",
          .subject = "a material",
          .help = "what particles are made of; [[material]] for several",
@@ -134,6 +135,7 @@ const std::vector<Key>& schema() {
         add("", topKeys());
         add("physics", physicsKeys());
         add("world", worldKeys());
+        add("air", airKeys());
         add("material", materialKeys());
         add("body", bodyKeys());
         add("emitter", emitterKeys());

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/heat/heat_exchange.h"
 #include "scenes/model/to_float.h"
 #include "scenes/text/color.h"
 
@@ -29,7 +30,9 @@ Vec3 particleColor(const Scene& scene, const engine::Particles& particles, std::
     const Look& look = scene.look;
     if (look.colorBy == ColorBy::material) return scene.materialColors.at(particles.material[index]);
     const double quantity = look.colorBy == ColorBy::age ? time - particles.birthTime[index]
-                                                         : std::sqrt(engine::squaredLength(particles.velocity[index]));
+                            : look.colorBy == ColorBy::temperature
+                                ? engine::temperatureOf(scene.setup.materials, particles, index)
+                                : std::sqrt(engine::squaredLength(particles.velocity[index]));
     return rampColor(look.ramp, (quantity - look.rampLow) / (look.rampHigh - look.rampLow));
 }
 

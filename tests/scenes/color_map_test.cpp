@@ -195,5 +195,5 @@ TEST_CASE("a color map and explicit colors exclude each other, and unknown names
           Lines{"pile.toml:8:13: color_map is \"embers\", must be \"lagoon\", \"ember\", \"dusk\" or \"glacier\", did "
                 "you mean \"ember\"?"});
     CHECK(problemsOf(kBall + "[look]\ncolor_map = \"ember\"\n") ==
-          Lines{"pile.toml:7:1: color_map does not apply to color_by \"material\", only to speed, age"});
+          Lines{"pile.toml:7:1: color_map does not apply to color_by \"material\", only to speed, age, temperature"});
 }

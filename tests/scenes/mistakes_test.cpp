@@ -185,7 +185,7 @@ TEST_CASE("keys that do not apply to the shape are rejected") {
     CHECK(problemsOf(kBall + "[camera]\nhalf_height = 3\n") ==
           Lines{"pile.toml:7:1: half_height does not apply to projection \"perspective\", only to orthographic"});
     CHECK(problemsOf(kBall + "[look]\ncolors = [\"#000000\"]\n") ==
-          Lines{"pile.toml:7:1: colors does not apply to color_by \"material\", only to speed, age"});
+          Lines{"pile.toml:7:1: colors does not apply to color_by \"material\", only to speed, age, temperature"});
 }
 
 TEST_CASE("keys that exclude each other are reported at the later one") {
@@ -232,7 +232,7 @@ TEST_CASE("corners, directions and cameras are checked") {
     CHECK(problemsOf(kTop + "[[emitter]]\nshape = \"ring\"\nposition = [0, 0, 0]\nradius = 1\nrate = 1\n") ==
           Lines{"pile.toml:3:1: direction is missing, a ring whose velocity is zero needs it"});
     CHECK(problemsOf(kBall + "[look]\ncolor_by = \"speed\"\ncolor_range = [2, 1]\n") ==
-          Lines{"pile.toml:8:15: color_range is [2, 1], must be two numbers [low, high], low below high (m/s or s)"});
+          Lines{"pile.toml:8:15: color_range is [2, 1], must be two numbers [low, high], low below high (m/s, s or K)"});
 }
 
 TEST_CASE("materials have to be defined exactly once") {

@@ -105,6 +105,39 @@ Json materialJson(const engine::Material& material, const std::string& note) {
             {"friction", material.friction}, {"note", note}};
 }
 
+/// Whether a material is a stage of one that melts; the scene file does not have it.
+bool isBetween(const scenes::Scene& scene, std::size_t index) {
+    return scene.setup.heat && std::ranges::any_of(scene.setup.heat->melts, [&](const engine::Melt& melt) {
+               return index >= melt.first && index - melt.first < melt.count;
+           });
+}
+
+/// What melts, and how often heat is exchanged; null in a scene without heat.
+Json heatJson(const scenes::Scene& scene) {
+    if (!scene.setup.heat) return nullptr;
+    const engine::HeatSetup& heat = *scene.setup.heat;
+    Json json = {{"interval", heat.interval}, {"melts", Json::array()}};
+    for (const engine::Melt& melt : heat.melts) {
+        const engine::Material& solid = scene.setup.materials[melt.solid];
+        json["melts"].push_back({{"material", solid.name},
+                                 {"from", solid.thermal.melting},
+                                 {"to", solid.thermal.melting + solid.thermal.meltingRange},
+                                 {"stages", melt.count}});
+    }
+    return json;
+}
+
+/// The lines on heat; none in a scene without.
+std::string heatText(const Json& heat) {
+    if (heat.is_null()) return {};
+    std::string text = fmt::format("heat       exchanged every {:.3g} s\n", heat["interval"].get<double>());
+    for (const Json& melt : heat["melts"])
+        text +=
+            fmt::format("           {} melts from {:g} to {:g} K, in {} stages\n", melt["material"].get<std::string>(),
+                        melt["from"].get<double>(), melt["to"].get<double>(), melt["stages"].get<int>());
+    return text;
+}
+
 /// How tall a body is, and to what share of that it sinks under its own weight; null where nothing weighs on it. That
 /// share is null where the body draws itself together.
 Json bodyJson(const scenes::BodyColumn& body) {
@@ -145,7 +178,9 @@ Json sceneJson(const scenes::Scene& scene) {
     if (terms.pair.friction) json["terms"].push_back("friction");
     json["materials"] = Json::array();
     for (std::size_t index = 0; index < scene.setup.materials.size(); ++index)
-        json["materials"].push_back(materialJson(scene.setup.materials[index], scene.materialNotes[index]));
+        if (!isBetween(scene, index))
+            json["materials"].push_back(materialJson(scene.setup.materials[index], scene.materialNotes[index]));
+    json["heat"] = heatJson(scene);
     json["bodies"] = Json::array();
     for (const scenes::BodyColumn& body : scene.bodyColumns) json["bodies"].push_back(bodyJson(body));
     json["meshes"] = scene.meshNotes;
@@ -365,6 +400,7 @@ std::string checkText(const Json& json) {
         if (const auto note = material["note"].get<std::string>(); !note.empty())
             text += fmt::format("           {}\n", note);
     }
+    text += heatText(json["heat"]);
     text += bodiesText(json["bodies"]);
     for (const Json& mesh : json["meshes"]) text += fmt::format("mesh       {}\n", mesh.get<std::string>());
     text += fmt::format("obstacles  {}\n", json["obstacles"].get<std::size_t>());

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 
+#include "engine/heat/heat_exchange.h"
 #include "render/mesh/isosurface.h"
 #include "scenes/particles/formats.h"
 #include "scenes/particles/vtp.h"
@@ -37,6 +38,8 @@ scenes::ParticleFrame particleFrame(const scenes::Scene& scene, const engine::Si
     scenes::ParticleFrame result{
         simulation.particles, {frame.number, frame.time, scene.simulationHash}, {}, scene.materialColors};
     for (const engine::Material& material : scene.setup.materials) result.materialNames.push_back(material.name);
+    for (std::size_t p = 0; p < simulation.particles.enthalpy.size(); ++p)
+        result.temperature.push_back(engine::temperatureOf(scene.setup.materials, simulation.particles, p));
     return result;
 }
 

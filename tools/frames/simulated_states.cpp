@@ -108,6 +108,8 @@ engine::Particles SimulatedStates::read(int frame) const {
             throw render::SystemError(fmt::format("{} has particles of material {}, the scene has {} materials",
                                                   path.string(), *std::ranges::max_element(materials),
                                                   scene_.setup.materials.size()));
+        if (state.particles.enthalpy.empty() && scene_.setup.heat && state.particles.count() > 0)
+            throw render::SystemError(fmt::format("{}: property \"enthalpy\" is missing", path.string()));
         return std::move(state.particles);
     } catch (const scenes::InputError& error) {
         throw render::SystemError(error.what());
