@@ -56,6 +56,18 @@ HWY_INLINE V atLeast(V number, double bound) {
     return hn::Max(number, hn::Set(hn::DFromV<V>(), static_cast<hn::TFromV<V>>(bound)));
 }
 template <class V>
+HWY_INLINE V atMost(V number, double bound) {
+    return hn::Min(number, hn::Set(hn::DFromV<V>(), static_cast<hn::TFromV<V>>(bound)));
+}
+template <class V>
+HWY_INLINE V times(double factor, V number) {
+    return hn::Mul(hn::Set(hn::DFromV<V>(), static_cast<hn::TFromV<V>>(factor)), number);
+}
+template <class V>
+HWY_INLINE V lessFrom(double from, V number) {
+    return hn::Sub(hn::Set(hn::DFromV<V>(), static_cast<hn::TFromV<V>>(from)), number);
+}
+template <class V>
 HWY_INLINE V positivePart(V number) {
     return hn::Max(number, hn::Zero(hn::DFromV<V>()));
 }

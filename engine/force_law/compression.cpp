@@ -19,17 +19,14 @@
 #include "engine/force_law/compression.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "engine/force_law/cohesion.h"
+#include "engine/force_law/lattice.h"
 #include "engine/force_law/pair_law.h"
 
 namespace engine {
 namespace {
-
-/// Shells of the lattice that are counted: up to this many squared spacings. Chosen: enough for the reach of any preset
-/// at a lattice compressed to a twentieth of its rest length.
-constexpr int kShellCount = 1600;
 
 /// Factor between two spacings in the table. Chosen: the trapezoids of the integral err by less than 1e-4.
 constexpr double kSpacingFactor = 0.995;
@@ -40,29 +37,18 @@ constexpr double kLeastSpacing = 0.05;
 /// How often an interval is halved in which a solution lies. Chosen: until it is no wider than rounding.
 constexpr int kHalvings = 100;
 
-/// How many lattice points are at a distance of sqrt(n) spacings from one of them, for each n. In units of half the
-/// cube's edge, they are the points with an even sum of coordinates, and their squared distance is 2 n.
-const std::array<double, kShellCount + 1>& shellSizes() {
-    static const std::array<double, kShellCount + 1> sizes = [] {
-        std::array<double, kShellCount + 1> counted{};
-        const int most = static_cast<int>(std::sqrt(2.0 * kShellCount));
-        for (int x = -most; x <= most; ++x)
-            for (int y = -most; y <= most; ++y)
-                for (int z = -most; z <= most; ++z)
-                    if (const int square = x * x + y * y + z * z; square % 2 == 0 && square <= 2 * kShellCount)
-                        counted[static_cast<std::size_t>(square / 2)] += 1.0;
-        return counted;
-    }();
-    return sizes;
-}
+/// The same for a material with cohesion, for each half of which a column is computed anew. Chosen: b1 is then right to
+/// a millionth.
+constexpr int kCohesiveHalvings = 26;
 
-/// Volume per particle of a lattice with nearest neighbors at a spacing.
-double cellVolume(double spacing) {
-    return spacing * spacing * spacing / std::sqrt(2.0);
+double cube(double number) {
+    return number * number * number;
 }
 
 /// The material's pair law with b1 = 1 and D0 = 1.
 PairConstants<double> reducedLaw(Material material) {
+    const double rest = 2.0 * material.radius;
+    if (material.pull > 0.0) material.pull *= cube(rest) * rest * rest / material.repulsion;
     material.repulsion = 1.0;
     return pairConstants<double>(material, 1.0);
 }
@@ -70,12 +56,10 @@ PairConstants<double> reducedLaw(Material material) {
 /// Pressure of a lattice in units of b1/D0^6.
 /// @param spacing  in rest lengths
 double reducedPressure(const PairConstants<double>& law, double spacing) {
-    double sum = 0.0;
-    for (std::size_t n = 1; n <= kShellCount; ++n) {
-        const double distanceSq = spacing * spacing * static_cast<double>(n);
-        if (distanceSq >= law.reachSq) break;
-        sum += shellSizes()[n] * distanceSq * pairCoefficient<kConservative>(distanceSq, 0.0, law);
-    }
+    const double reachSq = law.pull > 0.0 ? std::max(law.reachSq, law.pullReachSq) : law.reachSq;
+    const double sum = sumOverShells(spacing, reachSq, [&](double distanceSq) {
+        return distanceSq * pairCoefficient<kConservative>(distanceSq, 0.0, law);
+    });
     return sum / (6.0 * cellVolume(spacing));
 }
 
@@ -117,13 +101,26 @@ double meanVolume(const PairConstants<double>& law, double floorPressure) {
     return integral / floorPressure;
 }
 
-double cube(double number) {
-    return number * number * number;
-}
-
 /// Pressure at the floor of a column, in pascals.
 double floorPressureOf(const Material& material, const Column& column) {
     return material.mass * column.gravity * column.height / cellVolume(column.spacing);
+}
+
+/// repulsionForShare() of a material with cohesion, whose rest ratio follows from b1.
+std::optional<double> cohesiveRepulsionForShare(Material material, const Column& column, double share) {
+    const double unit = material.cohesion * std::pow(2.0 * material.radius, 5);
+    const auto shareWith = [&](double repulsion) {
+        material.repulsion = repulsion;
+        return settledShare(withCohesion(material, material.cohesion).value_or(material), column);
+    };
+    double low = 1e-3 * unit;
+    double high = 1e9 * unit;
+    if (shareWith(high) < share) return std::nullopt;
+    for (int k = 0; k < kCohesiveHalvings; ++k) {
+        const double middle = std::sqrt(low * high);
+        (shareWith(middle) < share ? low : high) = middle;
+    }
+    return high;
 }
 
 }  // namespace
@@ -140,7 +137,8 @@ double restSpacing(const Material& material) {
 bool drawsTogether(const Material& material, const Column& column) {
     constexpr double kAlike = 0.999;  // a ratio of lengths that are the same but for rounding; chosen
     const double rest = restSpacing(material);
-    return rest < kAlike * 2.0 * material.radius && rest < kAlike * column.spacing;
+    const bool pullsFar = material.pull > 0.0 || rest < kAlike * 2.0 * material.radius;
+    return pullsFar && rest < kAlike * column.spacing;
 }
 
 double settledShare(const Material& material, const Column& column) {
@@ -154,6 +152,7 @@ double settledShare(const Material& material, const Column& column) {
 }
 
 std::optional<double> repulsionForShare(const Material& material, const Column& column, double share) {
+    if (material.cohesion > 0.0) return cohesiveRepulsionForShare(material, column, share);
     const double rest = 2.0 * material.radius;
     const PairConstants<double> law = reducedLaw(material);
     const double wanted = share * cellVolume(column.spacing / rest);

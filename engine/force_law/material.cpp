@@ -54,6 +54,9 @@ Material mixed(const Material& a, const Material& b) {
     mix.dampingReach = 0.5 * (a.dampingReach + b.dampingReach);
     mix.friction = std::sqrt(a.friction * b.friction);
     mix.coreFraction = 0.5 * (a.coreFraction + b.coreFraction);
+    mix.cohesion = std::sqrt(a.cohesion * b.cohesion);
+    mix.pull = std::sqrt(a.pull * b.pull);
+    mix.restRatio = 0.5 * (a.restRatio + b.restRatio);
     return mix;
 }
 

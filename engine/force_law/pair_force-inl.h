@@ -2,7 +2,7 @@
 // into namespace engine for double and float; simd_forces.cpp and external_forces.cpp include it again for each
 // instruction set, because a function that is inlined into a SIMD kernel must be compiled for that instruction set.
 // Hence there is no include guard and no namespace here, and the formulas use nothing but +, -, *, / and larger(),
-// atLeast(), positivePart(), reciprocal() and squareRoot(), which the includer defines for its Number. Every path
+// atLeast(), atMost(), times(), lessFrom(), positivePart(), reciprocal() and squareRoot(), which the includer defines for its Number. Every path
 // computes the same bits. All functions are forced inline, so that a kernel computes once what two of them share.
 //
 // With the symbols of pair_law.h, m = 5, n = 3 and b2 = b1/D0^2, equation 2 is P times the coefficient
@@ -28,21 +28,29 @@ struct PairConstants {
     Number coreSq;            ///< square of the core distance, m^2
     Number friction;          ///< mu
     Number cutoffSq;          ///< square of the distance at and beyond which nothing acts, m^2
+    Number pull;              ///< strength kappa of the pull of cohesion, N/m
+    Number pullReachSq;       ///< S_c^2 with the reach S_c of the pull, m^2
+    Number inversePullWidth;  ///< 1/(S_c^2 - D0^2), 1/m^2
 };
 
 /// The constants of a pair with the rest length D0 (m), from those of the same materials at a rest length of 1 m, which
 /// are constantsPerRestLength(). Only 1/D0^2 takes a division.
-template <class Number>
+template <bool hasPull, class Number>
 [[gnu::always_inline]] inline PairConstants<Number> atRestLength(const PairConstants<Number>& perRestLength,
                                                                  Number restLength) {
     const Number restSq = restLength * restLength;
     PairConstants<Number> c = perRestLength;
     c.inverseRestSq = reciprocal(restSq);
+    if constexpr (hasPull) {
+        c.pullReachSq = restSq * perRestLength.pullReachSq;
+        c.inversePullWidth = c.inverseRestSq * perRestLength.inversePullWidth;
+    }
     c.inverseReachSq = c.inverseRestSq * perRestLength.inverseReachSq;
     c.inverseDampingSq = c.inverseRestSq * perRestLength.inverseDampingSq;
     c.reachSq = restSq * perRestLength.reachSq;
     c.coreSq = restSq * perRestLength.coreSq;
     c.cutoffSq = restSq * perRestLength.cutoffSq;
+    if constexpr (hasPull) c.inverseRestSq = c.inverseRestSq * perRestLength.inverseRestSq;
     return c;
 }
 
@@ -52,30 +60,71 @@ template <class Number>
     return reciprocal(larger(distanceSq, coreSq));
 }
 
+// Cohesion. The paper has no surface tension. Beyond the rest length, particles pull on each other with the force
+//     kappa D (1 - v) v^2,   v = (S_c^2 - D^2) / (S_c^2 - D0^2),   D0 < D < S_c,
+// which is zero with its slope at S_c and zero at D0. It is a polynomial in D^2, so that it takes no root and its
+// potential has a closed form. Below D0, v counts as 1. Source of the idea: Tartakovsky and Meakin, Phys. Rev. E 72
+// (2005); cohesion.h has kappa.
+
+/// v of the pull: 1 up to the rest length, and exactly 0 at and beyond the reach of the pull.
+template <class Number>
+[[gnu::always_inline]] inline Number pullShare(Number distanceSq, const PairConstants<Number>& c) {
+    return atMost(positivePart(c.pullReachSq - distanceSq) * c.inversePullWidth, 1.0);
+}
+
+/// Coefficient of -P in the pull, in N/m.
+template <class Number>
+[[gnu::always_inline]] inline Number pullCoefficient(Number distanceSq, const PairConstants<Number>& c) {
+    const Number v = pullShare(distanceSq, c);
+    return (c.pull * (v * v)) * lessFrom(1.0, v);
+}
+
+/// Energy of the pull, in joules: minus the integral of its force from its reach,
+///   -kappa (S_c^2 - D0^2)/2 (v^3/3 - v^4/4).
+template <class Number>
+[[gnu::always_inline]] inline Number pullEnergy(Number distanceSq, const PairConstants<Number>& c) {
+    const Number v = pullShare(distanceSq, c);
+    const Number scale = times(-1.0 / 8.0, c.pull) * reciprocal(c.inversePullWidth);
+    return scale * ((v * v) * v) * lessFrom(4.0 / 3.0, v);
+}
+
+/// Stiffness of the pull between D0 and S_c, in N/m, negative where the pull grows with distance:
+///   kappa (v^2 (1 - v) - 2 D^2 v (2 - 3 v) / (S_c^2 - D0^2)).
+/// @param v  pullShare() of the pair; where it is 1, the pull has no stiffness
+template <class Number>
+[[gnu::always_inline]] inline Number pullStiffness(Number distanceSq, Number v, const PairConstants<Number>& c) {
+    const Number bend = times(6.0, distanceSq) * c.inversePullWidth * lessFrom(2.0 / 3.0, v);
+    return c.pull * v * (v * lessFrom(1.0, v) - bend);
+}
+
 /// Coefficient of P in the conservative part of equation 2, in N/m.
-/// @param inverseSq  guardedInverseSq() of the pair, 1/m^2
-/// @param inverse    square root of inverseSq, 1/m
+/// @param distanceSq  P.P, in m^2
+/// @param inverseSq   guardedInverseSq() of the pair, 1/m^2
+/// @param inverse     square root of inverseSq, 1/m
 template <PairTerms terms, class Number>
-[[gnu::always_inline]] inline Number conservativeFrom(Number inverseSq, Number inverse,
+[[gnu::always_inline]] inline Number conservativeFrom(Number distanceSq, Number inverseSq, Number inverse,
                                                       const PairConstants<Number>& c) {
     const Number toRest = inverseSq - c.inverseRestSq;
     const Number toReach = positivePart(terms.attraction ? inverseSq - c.inverseReachSq : toRest);
-    return c.b1 * inverse * (toRest * toReach);
+    const Number repulsion = c.b1 * inverse * (toRest * toReach);
+    if constexpr (terms.cohesion) return repulsion - pullCoefficient(distanceSq, c);
+    return repulsion;
 }
 
-/// Coefficient of P in equation 2, in N/m, from 1/D^2 (1/m^2) and 1/D (1/m) with D no smaller than the core distance,
-/// and from `approach`, which is V.P (m^2/s).
+/// Coefficient of P in equation 2, in N/m, from D^2 (m^2), from 1/D^2 (1/m^2) and 1/D (1/m) with D no smaller than the
+/// core distance, and from `approach`, which is V.P (m^2/s).
 template <PairTerms terms, class Number>
-[[gnu::always_inline]] inline Number coefficientFrom(Number inverseSq, Number inverse, Number approach,
-                                                     const PairConstants<Number>& c) {
+[[gnu::always_inline]] inline Number coefficientFrom(Number distanceSq, Number inverseSq, Number inverse,
+                                                     Number approach, const PairConstants<Number>& c) {
     const Number damping = c.bd * approach;
     if constexpr (!terms.damping) {
-        return conservativeFrom<terms>(inverseSq, inverse, c);
+        return conservativeFrom<terms>(distanceSq, inverseSq, inverse, c);
     } else if constexpr (terms.equalReach) {
         const Number toRest = inverseSq - c.inverseRestSq;
         return (c.b1 * inverse * toRest - damping) * positivePart(inverseSq - c.inverseReachSq);
     } else {
-        return conservativeFrom<terms>(inverseSq, inverse, c) - damping * positivePart(inverseSq - c.inverseDampingSq);
+        return conservativeFrom<terms>(distanceSq, inverseSq, inverse, c) -
+               damping * positivePart(inverseSq - c.inverseDampingSq);
     }
 }
 
@@ -88,7 +137,7 @@ template <PairTerms terms, class Number>
 [[gnu::always_inline]] inline Number pairCoefficient(Number distanceSq, Number approach,
                                                      const PairConstants<Number>& c) {
     const Number inverseSq = guardedInverseSq(distanceSq, c.coreSq);
-    return coefficientFrom<terms>(inverseSq, squareRoot(inverseSq), approach, c);
+    return coefficientFrom<terms>(distanceSq, inverseSq, squareRoot(inverseSq), approach, c);
 }
 
 /// Damping of a pair along the line between the two particles, divided by D^2: b_d s_d / D^2, in kg/(s m^2). Multiplied

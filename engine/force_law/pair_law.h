@@ -4,7 +4,9 @@
 // only: constants, energy and stiffness of a pair.
 //
 // Symbols. P = x_p - x_i is the separation of particles p and i, D its length, V = v_p - v_i their relative velocity.
-// D0 = r_p + r_i is the rest length, R = c_r D0 where repulsion and attraction end, S = c_d D0 where damping ends.
+// D0 = r_p + r_i is the rest length, R = c_r D0 where repulsion and attraction end, S = c_d D0 where damping ends. In a
+// material with cohesion the repulsion reaches a little further, as if D0 were lambda D0 in the first two of the three,
+// and there is a pull between D0 and S_c = kPullReach D0.
 #pragma once
 
 #include <algorithm>
@@ -24,13 +26,17 @@ struct PairTerms {
     bool damping = true;      ///< whether there is damping: b_d is above 0
     bool friction = false;    ///< whether there is friction: mu is above 0
     bool equalReach = false;  ///< whether attraction and damping end at one distance (R = S) in every damped pair
+    bool cohesion = false;    ///< whether particles pull on each other beyond their rest length: kappa is above 0
 };
 
 /// Calls visit.operator()<terms>() with the cheapest compiled combination of terms that contains all needed terms, and
-/// returns the result of visit. Few scenes need friction, so there is only one combination with friction, which
-/// contains everything.
+/// returns the result of visit. Few scenes need friction or cohesion, so there is only one combination with each of
+/// them, and one with both, which contains everything.
 template <class Visit>
 auto withTerms(PairTerms needed, const Visit& visit) {
+    if (needed.cohesion && needed.friction)
+        return visit.template operator()<PairTerms{true, true, true, false, true}>();
+    if (needed.cohesion) return visit.template operator()<PairTerms{true, true, false, false, true}>();
     if (needed.friction) return visit.template operator()<PairTerms{true, true, true}>();
     if (needed.damping && needed.equalReach) return visit.template operator()<PairTerms{true, true, false, true}>();
     if (needed.attraction && needed.damping) return visit.template operator()<PairTerms{true, true}>();
@@ -39,8 +45,14 @@ auto withTerms(PairTerms needed, const Visit& visit) {
     return visit.template operator()<PairTerms{false, false}>();
 }
 
-/// The terms of the conservative force: attraction and repulsion without damping and friction.
-inline constexpr PairTerms kConservative{.attraction = true, .damping = false};
+/// The terms of the conservative force: attraction, repulsion and cohesion without damping and friction.
+inline constexpr PairTerms kConservative{.attraction = true, .damping = false, .cohesion = true};
+
+/// All terms that act along the line between two particles.
+inline constexpr PairTerms kAlongLine{.attraction = true, .damping = true, .cohesion = true};
+
+/// Reach S_c of the pull of cohesion, in rest lengths. Chosen: see cohesion.h.
+inline constexpr double kPullReach = 3.0;
 
 /// The terms of the force between particles and obstacles (section 3.2 of the paper): repulsion and damping, no
 /// attraction.
@@ -59,6 +71,18 @@ Number larger(Number a, Number b) {
 template <std::floating_point Number>
 Number atLeast(Number number, double bound) {
     return std::max(number, static_cast<Number>(bound));
+}
+template <std::floating_point Number>
+Number atMost(Number number, double bound) {
+    return std::min(number, static_cast<Number>(bound));
+}
+template <std::floating_point Number>
+Number times(double factor, Number number) {
+    return static_cast<Number>(factor) * number;
+}
+template <std::floating_point Number>
+Number lessFrom(double from, Number number) {
+    return static_cast<Number>(from) - number;
 }
 template <std::floating_point Number>
 Number positivePart(Number number) {
@@ -81,24 +105,31 @@ Number squareRoot(Number number) {
 /// @param restLength  D0 = r_i + r_p, in meters
 template <std::floating_point Number>
 PairConstants<Number> pairConstants(const Material& material, double restLength) {
-    const double reach = material.repulsionReach * restLength;
+    const double rest = material.restRatio * restLength;
+    const double reach = material.repulsionReach * rest;
     const double damping = material.dampingReach * restLength;
     const double core = material.coreFraction * restLength;
     PairConstants<Number> c;
     c.b1 = static_cast<Number>(material.repulsion);
     c.bd = static_cast<Number>(material.damping);
-    c.inverseRestSq = static_cast<Number>(1.0 / (restLength * restLength));
+    c.inverseRestSq = static_cast<Number>(1.0 / (rest * rest));
     c.inverseReachSq = static_cast<Number>(1.0 / (reach * reach));
     c.reachSq = static_cast<Number>(reach * reach);
     c.inverseDampingSq = static_cast<Number>(1.0 / (damping * damping));
     c.coreSq = static_cast<Number>(core * core);
     c.friction = static_cast<Number>(material.friction);
     c.cutoffSq = material.damping > 0.0 ? static_cast<Number>(std::max(reach * reach, damping * damping)) : c.reachSq;
+    const double pullReach = kPullReach * restLength;
+    c.pull = static_cast<Number>(material.pull);
+    c.pullReachSq = static_cast<Number>(pullReach * pullReach);
+    c.inversePullWidth = static_cast<Number>(1.0 / (pullReach * pullReach - restLength * restLength));
+    if (material.pull > 0.0) c.cutoffSq = std::max(c.cutoffSq, c.pullReachSq);
     return c;
 }
 
 /// The constants at a rest length of 1 m, from which atRestLength() computes those of pairs of any radii. 1/R^2 and
-/// 1/S^2 are a few units in the last place too large, so that no rounding lets a pair act at or beyond its cutoff.
+/// 1/S^2 are a few units in the last place too large, and S_c^2 is as much too small, so that no rounding lets a pair act
+/// at or beyond its cutoff.
 template <std::floating_point Number>
 PairConstants<Number> constantsPerRestLength(const Material& material) {
     // Six roundings by half a unit each, of D0, 1/D0^2, the constants here and their product.
@@ -106,16 +137,19 @@ PairConstants<Number> constantsPerRestLength(const Material& material) {
     PairConstants<Number> c = pairConstants<Number>(material, 1.0);
     c.inverseReachSq *= kOutward;
     c.inverseDampingSq *= kOutward;
+    c.pullReachSq /= kOutward;
     return c;
 }
 
 /// Pair energy U(D) of the conservative part, in joules: minus the integral of the force from the cutoff.
 ///   U = b1 { (D^-3 - R^-3)/3 - A (1/D - 1/R) + B (R - D) },  A = 1/D0^2 + 1/R^2,  B = 1/(D0^2 R^2)
-/// Below the core distance Dc, where F = F(Dc) D/Dc: U = U(Dc) + F(Dc) (Dc^2 - D^2) / (2 Dc). Forced inline, so that
-/// subexpressions that force and energy of a pair share are computed once.
+/// Below the core distance Dc, where F = F(Dc) D/Dc: U = U(Dc) + F(Dc) (Dc^2 - D^2) / (2 Dc). The energy of the pull is
+/// added where there is one. Forced inline, so that subexpressions that force and energy of a pair share are computed
+/// once.
 template <std::floating_point Number>
 [[gnu::always_inline]] inline Number pairEnergy(Number distance, const PairConstants<Number>& c) {
-    if (distance * distance >= c.reachSq) return Number(0);
+    const Number pulled = c.pull > Number(0) ? pullEnergy(distance * distance, c) : Number(0);
+    if (distance * distance >= c.reachSq) return pulled;
     const Number core = std::sqrt(c.coreSq);
     const Number guarded = std::max(distance, core);
     const Number reach = std::sqrt(c.reachSq);
@@ -125,22 +159,25 @@ template <std::floating_point Number>
     const Number a = c.inverseRestSq + c.inverseReachSq;
     const Number b = c.inverseRestSq * c.inverseReachSq;
     const Number outside = c.b1 * (cubes - a * (inverse - inverseReach) + b * (reach - guarded));
-    if (distance >= core) return outside;
+    if (distance >= core) return outside + pulled;
     const Number slope = pairCoefficient<kConservative>(c.coreSq, Number(0), c);
-    return outside + slope * (c.coreSq - distance * distance) / Number(2);
+    return outside + slope * (c.coreSq - distance * distance) / Number(2) + pulled;
 }
 
 /// Stiffness k = -dF/dD of the conservative part, in N/m; negative where the force softens with approach.
-///   k = b1 (4 D^-5 - 2 A D^-3), and -F(Dc)/Dc below the core distance Dc.
+///   k = b1 (4 D^-5 - 2 A D^-3), and -F(Dc)/Dc below the core distance Dc,
+/// and that of the pull where there is one.
 template <std::floating_point Number>
 Number pairStiffness(Number distance, const PairConstants<Number>& c) {
     const Number distanceSq = distance * distance;
-    if (distanceSq >= c.reachSq) return Number(0);
+    const Number v = pullShare(distanceSq, c);
+    const Number pulled = v < Number(1) ? pullStiffness(distanceSq, v, c) : Number(0);
+    if (distanceSq >= c.reachSq) return pulled;
     if (distanceSq < c.coreSq) return -pairCoefficient<kConservative>(c.coreSq, Number(0), c);
     const Number inverse = Number(1) / distance;
     const Number inverseCubed = inverse * inverse * inverse;
     const Number a = c.inverseRestSq + c.inverseReachSq;
-    return c.b1 * (Number(4) * inverseCubed * inverse * inverse - Number(2) * a * inverseCubed);
+    return c.b1 * (Number(4) * inverseCubed * inverse * inverse - Number(2) * a * inverseCubed) + pulled;
 }
 
 /// Replacement for the separation P (m) of two particles that coincide exactly, where P has no direction: a random

@@ -13,7 +13,8 @@ namespace {
 
 bool sameLaw(const Material& a, const Material& b) {
     return a.repulsion == b.repulsion && a.damping == b.damping && a.repulsionReach == b.repulsionReach &&
-           a.dampingReach == b.dampingReach && a.friction == b.friction && a.coreFraction == b.coreFraction;
+           a.dampingReach == b.dampingReach && a.friction == b.friction && a.coreFraction == b.coreFraction &&
+           a.pull == b.pull && a.restRatio == b.restRatio;
 }
 
 /// Compares the bits of the array with those of the array shifted by one number. A loop that compares numbers would
@@ -62,7 +63,8 @@ double cutoffRatio(const std::vector<Material>& materials) {
     double ratio = 0.0;
     for (const Material& material : materials) {
         // The reaches of a mixture lie between the reaches of its two materials.
-        ratio = std::max(ratio, material.repulsionReach);
+        ratio = std::max(ratio, material.repulsionReach * material.restRatio);
+        if (material.pull > 0.0) ratio = std::max(ratio, kPullReach);
         if (material.damping > 0.0) ratio = std::max(ratio, material.dampingReach);
         if (material.thermal.exists()) ratio = std::max(ratio, kConductingReach);
     }
@@ -77,6 +79,7 @@ ForceTerms termsFor(const ForceField& field, const Particles& particles, const R
         terms.pair.attraction |= material.repulsionReach > 1.0;
         terms.pair.damping |= material.damping > 0.0;
         terms.pair.friction |= material.friction > 0.0;
+        terms.pair.cohesion |= material.pull > 0.0;
         if (material.damping > 0.0) terms.pair.equalReach &= material.repulsionReach == material.dampingReach;
     }
     const std::vector<double>& radii = particles.radius;

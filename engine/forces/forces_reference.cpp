@@ -38,7 +38,7 @@ void pairForcesReference(const ForceField& field, const Particles& particles, co
             const Pair pair = pairOf(field, particles, p, particles, i);
             const double distanceSq = squaredLength(pair.separation);
             const double approach = dot(velocities[p] - velocities[i], pair.separation);
-            forces[p] += pairCoefficient<PairTerms{}>(distanceSq, approach, pair.constants) * pair.separation;
+            forces[p] += pairCoefficient<kAlongLine>(distanceSq, approach, pair.constants) * pair.separation;
             if (pair.constants.friction > 0.0) forces[p] += frictionOf(pair, velocities[p] - velocities[i]);
         }
     }

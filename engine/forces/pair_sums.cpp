@@ -60,6 +60,8 @@ template <Variant variant>
 [[gnu::always_inline]] inline double addPair(const Pair& pair, const PairConstants<double>& constants,
                                              ParticleSums& sums) {
     const double distanceSq = pair.distanceSq;
+    const double reachSq =
+        variant.terms.cohesion ? std::max(constants.reachSq, constants.pullReachSq) : constants.reachSq;
     double approach = 0.0;
     if constexpr (variant.terms.damping) approach = dot(pair.velocity(), pair.separation);
     sums.force += pairCoefficient<variant.terms>(distanceSq, approach, constants) * pair.separation;
@@ -69,7 +71,7 @@ template <Variant variant>
         sums.force -= slip.damping * slip.velocity;
     }
     if constexpr (variant.hasEnergy)
-        if (distanceSq < constants.reachSq)
+        if (distanceSq < reachSq)
             sums.energy += 0.5 * energyOf(pair.p, pair.i, std::sqrt(distanceSq), constants);
     return slip.damping;
 }
@@ -83,7 +85,7 @@ void addEntry(const Pair& pair, double slipDamping, const PairConstants<double>&
     const double distanceSq = pair.distanceSq;
     double along = 0.0;
     if constexpr (terms.damping) along = weights.damping * pairDampingOverSq(distanceSq, constants);
-    if (weights.stiffness > 0.0 && distanceSq < constants.reachSq)
+    if (weights.stiffness > 0.0 && distanceSq < std::max(constants.reachSq, constants.pullReachSq))
         along += weights.stiffness * std::max(0.0, pairStiffness(std::sqrt(distanceSq), constants)) / distanceSq;
     const double across = weights.damping * slipDamping;
     if ((along == 0.0 && across == 0.0) || coincide(pair.p, pair.i)) return;

@@ -23,15 +23,31 @@ PairTableRow<T> rowOf(const Material& material, double restLength, bool hasDampi
 }
 
 template <class T>
+PullTableRow<T> pullRowOf(const Material& material, double restLength) {
+    const PairConstants<T> c = constantsAt<T>(material, restLength);
+    return {.pull = c.pull,
+            .pullReachSq = c.pullReachSq,
+            .inversePullWidth = c.inversePullWidth,
+            .inverseRestSq = c.inverseRestSq};
+}
+
+template <class T>
 PairTableIn<T> tableOf(const std::vector<Material>& mixtures, double restLength, bool hasDampingReach) {
     PairTableIn<T> table;
     table.inverseRestSq = constantsAt<T>(mixtures.front(), restLength).inverseRestSq;
-    for (const Material& material : mixtures) table.rows.push_back(rowOf<T>(material, restLength, hasDampingReach));
+    for (const Material& material : mixtures) {
+        table.rows.push_back(rowOf<T>(material, restLength, hasDampingReach));
+        table.pullRows.push_back(pullRowOf<T>(material, restLength));
+    }
     for (std::size_t k = 0; k < std::min(table.rows.size(), table.columns[0].size()); ++k) {
         const PairTableRow<T>& row = table.rows[k];
         const std::array<T, 8> fields = {row.b1,       row.bd,    row.coreSq,   row.outerInverseSq, row.inverseReachSq,
                                          row.friction, row.reach, row.halfSlope};
         for (std::size_t field = 0; field < fields.size(); ++field) table.columns[field][k] = fields[field];
+        const PullTableRow<T>& pull = table.pullRows[k];
+        const std::array<T, 4> pullFields = {pull.pull, pull.pullReachSq, pull.inversePullWidth, pull.inverseRestSq};
+        for (std::size_t field = 0; field < pullFields.size(); ++field)
+            table.pullColumns[field][k] = pullFields[field];
     }
     return table;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <type_traits>
 #include <vector>
 
@@ -25,6 +26,15 @@ struct alignas(8 * sizeof(T)) PairTableRow {
     T halfSlope;  ///< half the coefficient of P inside the core distance, N/m
 };
 
+/// What SIMD kernels with cohesion read besides; the rest length is another for each pair of materials there.
+template <class T>
+struct alignas(4 * sizeof(T)) PullTableRow {
+    T pull;
+    T pullReachSq;
+    T inversePullWidth;
+    T inverseRestSq;
+};
+
 /// Whether damping has a reach of its own in kernels with these terms.
 constexpr bool hasDampingReach(PairTerms terms) {
     return terms.damping && !terms.equalReach;
@@ -35,6 +45,10 @@ constexpr bool hasDampingReach(PairTerms terms) {
 template <class T>
 PairConstants<T> roundedConstants(const PairConstants<double>& exact) {
     if constexpr (std::is_same_v<T, double>) return exact;
+    const auto roundedDown = [](double number) {
+        const T rounded = static_cast<T>(number);
+        return static_cast<double>(rounded) > number ? std::nextafter(rounded, T(0)) : rounded;
+    };
     const auto roundedInverse = [](double inverseSq) { return T(1) / static_cast<T>(1.0 / inverseSq); };
     return {.b1 = static_cast<T>(exact.b1),
             .bd = static_cast<T>(exact.bd),
@@ -44,7 +58,10 @@ PairConstants<T> roundedConstants(const PairConstants<double>& exact) {
             .inverseDampingSq = roundedInverse(exact.inverseDampingSq),
             .coreSq = static_cast<T>(exact.coreSq),
             .friction = static_cast<T>(exact.friction),
-            .cutoffSq = static_cast<T>(exact.cutoffSq)};
+            .cutoffSq = static_cast<T>(exact.cutoffSq),
+            .pull = static_cast<T>(exact.pull),
+            .pullReachSq = roundedDown(exact.pullReachSq),
+            .inversePullWidth = static_cast<T>(exact.inversePullWidth)};
 }
 
 /// Constants of the pairs of a material at a rest length (m). A rest length of 0 stands for several: the result is then
@@ -59,9 +76,11 @@ PairConstants<T> constantsAt(const Material& material, double restLength) {
 template <class T>
 struct PairTableIn {
     std::vector<PairTableRow<T>> rows;
+    std::vector<PullTableRow<T>> pullRows;
     T inverseRestSq = T(0);  ///< 1/D0^2 of every pair, where all have one rest length
     /// The first rows by columns, in the order of the fields of a row: as many as a SIMD register holds.
     std::array<std::array<T, 64 / sizeof(T)>, 8> columns = {};
+    std::array<std::array<T, 64 / sizeof(T)>, 4> pullColumns = {};
 };
 
 /// The table, with an entry for every material and every other; symmetric bit for bit. It is empty for more than

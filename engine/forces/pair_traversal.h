@@ -78,7 +78,7 @@ struct PairTraversal {
 
     PairConstants<double> constants(const PackedParticle& p, const PackedParticle& i) const {
         const PairConstants<double> c = table.constantsOf(materials, p.material, i.material);
-        return terms.oneRadius ? c : atRestLength(c, p.radius + i.radius);
+        return terms.oneRadius ? c : atRestLength<true>(c, p.radius + i.radius);
     }
 
     /// Index, in the order of the neighbor list, of the particle in a lane slot.

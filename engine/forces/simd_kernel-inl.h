@@ -121,10 +121,11 @@ HWY_FLATTEN void sumLanes(const PairTraversal& pairs, const PairSums& wanted, st
         // The entries that pad a row have P = 0, so their force is zero.
         const V inverseSq = guardedInverseSq(distanceSq, law.constants.coreSq);
         const V inverse = squareRoot(inverseSq);
-        addScaled(force, coefficientFrom<kTerms>(inverseSq, inverse, approach, law.constants), row.separation);
+        addScaled(force, coefficientFrom<kTerms>(distanceSq, inverseSq, inverse, approach, law.constants),
+                  row.separation);
         Slip<V> slip;
         if constexpr (kTerms.friction) {
-            const V conservative = conservativeFrom<kTerms>(inverseSq, inverse, law.constants);
+            const V conservative = conservativeFrom<kTerms>(distanceSq, inverseSq, inverse, law.constants);
             slip = slipOf<T>(row, separationSq, approach, law.constants.friction,
                              hn::Mul(conservative, hn::Sqrt(distanceSq)));
             addScaled(force, law.perUnitOf(hn::Neg(slip.damping)), slip.velocity);

@@ -67,7 +67,9 @@ struct Law {
         const V middle = hn::Sub(cubes, hn::Mul(a, hn::Sub(inverse, inverseReach)));
         const V outside = hn::Mul(constants.b1, hn::Add(middle, hn::Mul(b, hn::Sub(reach, guarded))));
         const V inside = hn::Mul(halfSlope, hn::Sub(guardedSq, distanceSq));  // 0 beyond the core distance
-        return hn::IfThenElseZero(hn::Lt(distanceSq, constants.reachSq), hn::Add(outside, inside));
+        const V repulsion = hn::IfThenElseZero(hn::Lt(distanceSq, constants.reachSq), hn::Add(outside, inside));
+        if constexpr (variant.terms.cohesion) return hn::Add(repulsion, pullEnergy(distanceSq, constants));
+        return repulsion;
     }
 
     /// (damping b_d s_d + stiffness max(k, 0)) / D^2 with the weights of the matrix. Inside the core distance the force
@@ -76,7 +78,15 @@ struct Law {
         const V slope = hn::Mul(inverseSq, hn::Sub(hn::Mul(set(T(4)), inverseSq), hn::Add(a, a)));
         const V k = hn::Mul(hn::Mul(constants.b1, hn::Mul(inverse, inverseSq)), slope);
         const auto isStiff = hn::And(hn::Ge(distanceSq, constants.coreSq), hn::Lt(distanceSq, constants.reachSq));
-        V sum = hn::IfThenElseZero(isStiff, hn::Mul(stiffnessWeight, positivePart(k)));
+        V sum;
+        if constexpr (variant.terms.cohesion) {
+            const V v = pullShare(distanceSq, constants);
+            const V pulled = hn::IfThenElseZero(hn::Lt(v, set(T(1))), pullStiffness(distanceSq, v, constants));
+            const V all = hn::Add(hn::IfThenElseZero(isStiff, k), hn::Mul(inverseSq, pulled));
+            sum = hn::Mul(stiffnessWeight, positivePart(all));
+        } else {
+            sum = hn::IfThenElseZero(isStiff, hn::Mul(stiffnessWeight, positivePart(k)));
+        }
         if constexpr (variant.terms.damping) {
             const V toDamping = positivePart(hn::Sub(inverseSq, constants.inverseDampingSq));
             sum = hn::Add(sum, hn::Mul(dampingWeight, hn::Mul(damping, toDamping)));
@@ -104,6 +114,11 @@ struct OneLaw {
         law.constants.inverseDampingSq = law.set(c.inverseDampingSq);
         law.constants.coreSq = law.set(c.coreSq);
         law.constants.friction = law.set(c.friction);
+        if constexpr (variant.terms.cohesion) {
+            law.constants.pull = law.set(c.pull);
+            law.constants.pullReachSq = law.set(c.pullReachSq);
+            law.constants.inversePullWidth = law.set(c.inversePullWidth);
+        }
         if constexpr (variant.hasEnergy) {
             const T reach = std::sqrt(c.reachSq);
             const T inverse = T(1) / reach;
@@ -179,13 +194,16 @@ struct MixedLaws {
         law.reach = row.reach;
         law.halfSlope = row.halfSlope;
         c.reachSq = hn::Mul(row.reach, row.reach);
+        if constexpr (variant.terms.cohesion) readPull(others, c);
         if (hasRadii) {
             const V restLength = hn::Add(ownRadius, others.radius);
-            c = atRestLength(c, restLength);
+            c = atRestLength<variant.terms.cohesion>(c, restLength);
             law.reach = hn::Mul(row.reach, restLength);
             // The coefficient falls with the fifth power of the rest length.
-            law.halfSlope = hn::Mul(hn::Mul(row.halfSlope, c.inverseRestSq),
-                                    hn::Mul(c.inverseRestSq, hn::Mul(restLength, c.inverseRestSq)));
+            V inverseSq = c.inverseRestSq;
+            if constexpr (variant.terms.cohesion) inverseSq = reciprocal(hn::Mul(restLength, restLength));
+            law.halfSlope = hn::Mul(hn::Mul(row.halfSlope, inverseSq),
+                                    hn::Mul(inverseSq, hn::Mul(restLength, inverseSq)));
         }
         law.inverseReach = hn::Mul(law.reach, c.inverseReachSq);
         law.inverseReachCubed = hn::Mul(law.inverseReach, c.inverseReachSq);
@@ -221,6 +239,34 @@ struct MixedLaws {
         row.friction = far.second;
         row.reach = far.third;
         row.halfSlope = far.fourth;
+    }
+
+    /// Reads the constants of the pull and the rest length of the pairs of the own particles and these.
+    HWY_INLINE void readPull(const Traits<T>& others, PairConstants<V>& c) const {
+        const auto assignPull = [&](const auto& value) {
+            c.pull = value(0);
+            c.pullReachSq = value(1);
+            c.inversePullWidth = value(2);
+            c.inverseRestSq = value(3);
+        };
+        if (!hasLaws) return assignPull([&](std::size_t field) { return common.set(table.pullColumns[field][0]); });
+        const Whole<T> rows = hn::Add(firstRows, others.material);
+        if constexpr (hn::MaxLanes(kTag) >= 4) {
+            if (isSmall) {
+                const auto at = hn::IndicesFromVec(kTag, rows);
+                return assignPull([&](std::size_t field) {
+                    return hn::TableLookupLanes(hn::LoadU(kTag, table.pullColumns[field].data()), at);
+                });
+            }
+        }
+        std::array<hn::TFromD<WholeTag<T>>, kClusterSize> indices;
+        hn::StoreU(rows, kWhole, indices.data());
+        constexpr std::int64_t kStride = sizeof(PullTableRow<T>) / sizeof(T);
+        const Fields<T> fields = fieldsOf(&table.pullRows.front().pull, kStride, indices.data());
+        c.pull = fields.first;
+        c.pullReachSq = fields.second;
+        c.inversePullWidth = fields.third;
+        c.inverseRestSq = fields.fourth;
     }
 
     /// Assigns value(number of the field) to the fields of a row.

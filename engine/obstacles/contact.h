@@ -20,6 +20,9 @@
 // - Adhesion (after Derjaguin, Muller and Toporov) pulls with a constant force wherever f acts, and fades over another
 //   radius. It is a stress times the area of a particle in a layer of closest packing. It is not part of f, so that f
 //   balances it in an adhering particle at rest, and friction holds the particle.
+// - Wetting. To part a liquid of the surface tension sigma from a surface takes the work sigma (1 + cos theta) on a unit
+//   of area, with the contact angle theta (Young and Dupre). The pull of adhesion on one layer does that work if its
+//   stress is 2 sigma (1 + cos theta) / r: a particle at rest is a radius above the surface and has the energy -f r/2.
 // The steppers stop centers of particles at the surface; see obstacles/barriers.h.
 #pragma once
 
@@ -101,6 +104,11 @@ inline void setAdhesion(Contact& contact, double height, double stress, double r
     }
 }
 
+/// Stress with which a surface holds particles, N/m^2.
+inline double adhesionStress(const WallSurface& wall, const Probe& probe) {
+    return wall.adhesion + 2.0 * probe.cohesion * wall.wetting / probe.radius;
+}
+
 /// Sets the repulsion of a scaled wall and its damping. Force, energy and stiffness are those of pair_law.h for c_r =
 /// 1, in terms of q = 1/D - 1/D0, which keeps all digits where a contact begins:
 ///   f = b1 q^2 (1/D + 1/D0)^2,  U = b1 q^3 (1/3 + D/D0),  k = 4 b1 q (1/D + 1/D0) / D^3
@@ -136,7 +144,8 @@ inline void setAdhesion(Contact& contact, double height, double stress, double r
     }
     contact.friction = surface.wall->friction.value_or(probe.friction);
     if (surface.height < probe.radius) setRepulsion(contact, surface, obstacles.gravity, probe);
-    if (surface.wall->adhesion > 0.0) setAdhesion(contact, surface.height, surface.wall->adhesion, probe.radius);
+    if (const double stress = adhesionStress(*surface.wall, probe); stress > 0.0)
+        setAdhesion(contact, surface.height, stress, probe.radius);
     contact.pressure *= surface.slope;
     contact.adhesion *= surface.slope;
     return contact;

@@ -218,7 +218,7 @@ double forEachSurface(const Obstacles& obstacles, const Vec3& point, double time
 /// Distance of a particle's center from a surface below which the surface acts on the particle, m: the particle's
 /// radius, or its diameter where the surface is adhesive.
 inline double contactReach(const WallSurface& wall, double radius) {
-    return wall.adhesion > 0.0 ? 2.0 * radius : radius;
+    return wall.adhesion > 0.0 || wall.wetting > 0.0 ? 2.0 * radius : radius;
 }
 
 /// The largest contactReach() that any surface has for a particle of this radius (m).

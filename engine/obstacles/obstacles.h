@@ -100,6 +100,7 @@ struct WallSurface {
     Rebound rebound = {};
     std::optional<double> friction = {};  ///< coefficient mu; that of the particle's material where it is left out
     double adhesion = 0.0;                ///< stress with which the surface holds particles that touch it, N/m^2
+    double wetting = 0.0;                 ///< 1 + the cosine of the contact angle, 0 to 2; see contact.h
 };
 
 /// The laws of the force between particles and obstacles; contact.h has the formulas.
@@ -209,6 +210,7 @@ struct Probe {
     double repulsion = 0.01;       ///< strength b1 of the repulsion of the particle's material, N m^4
     double damping = 1.0;          ///< damping coefficient b_d of the particle's material, kg/s
     double time = 0.0;             ///< s
+    double cohesion = 0.0;         ///< surface tension of the particle's material, N/m
 };
 
 /// Force of the obstacles on a particle, and the particle's energy at them.

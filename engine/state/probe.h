@@ -19,7 +19,8 @@ inline Probe probeOf(const std::vector<Material>& materials, const Particles& pa
     const Material& material = materials[index];
     return {particles.position[p], velocity,          particles.radius[p],
             material.dampingReach, material.friction, particles.mass[p],
-            material.repulsion,    material.damping,  time};
+            material.repulsion,    material.damping,  time,
+            material.cohesion};
 }
 
 /// The same for the material that the particle has.

@@ -27,7 +27,7 @@ OwnSums sumsOf(const PairTraversal& pairs, std::size_t laneSlot) {
         const double distance = std::sqrt(distanceSq);
         const Vec3 normal = separation / distance;
         const Matrix3 along = normal * normal.transpose();
-        const double across = -pairCoefficient<PairTerms{true, false}>(distanceSq, 0.0, c);
+        const double across = -pairCoefficient<kConservative>(distanceSq, 0.0, c);
         sums.stiffness +=
             std::max(0.0, pairStiffness(distance, c)) * along + std::max(0.0, across) * (Matrix3::Identity() - along);
         sums.damping += pairDampingOverSq(distanceSq, c) * distanceSq * along;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "engine/force_law/cohesion.h"
 #include "scenes/build/builders.h"
 #include "scenes/build/columns.h"
 #include "scenes/schema/preset_info.h"
@@ -19,12 +20,13 @@ struct MaterialKey {
     double engine::Material::*member;
 };
 
-constexpr std::array<MaterialKey, 8> kMaterialKeys = {{{"radius", &engine::Material::radius},
+constexpr std::array<MaterialKey, 9> kMaterialKeys = {{{"radius", &engine::Material::radius},
                                                        {"mass", &engine::Material::mass},
                                                        {"b1", &engine::Material::repulsion},
                                                        {"bd", &engine::Material::damping},
                                                        {"cr", &engine::Material::repulsionReach},
                                                        {"cd", &engine::Material::dampingReach},
+                                                       {"cohesion", &engine::Material::cohesion},
                                                        {"friction", &engine::Material::friction},
                                                        {"core", &engine::Material::coreFraction}}};
 
@@ -124,6 +126,30 @@ std::string chooseRepulsion(Section& section, const engine::Material& material, 
                        *repulsion);
 }
 
+/// Gives a material its cohesion, and returns what that means, for `check`.
+std::string cohere(Section& section, engine::Material& material, BuildContext& context) {
+    if (material.cohesion == 0.0) return {};
+    const double repulsion = material.repulsion;
+    const auto cohesive = engine::withCohesion(material, material.cohesion);
+    if (!cohesive) {
+        report(section, "cohesion", context,
+               "cohesion needs a cr of at most {:.4g}, which is {}: particles that attract beyond their nearest neighbors "
+               "draw together by themselves",
+               engine::kMostCohesiveReach, section.canonical("cr"));
+        return {};
+    }
+    material = *cohesive;
+    std::string note = fmt::format("cohesion {} N/m", section.canonical("cohesion"));
+    if (material.pull == 0.0) note += fmt::format(" is no more than cr makes already, {:.3g}", surfaceTension(material));
+    if (material.repulsion > repulsion)
+        note += fmt::format(" raises b1 {:.3g} times to {:.3g}", material.repulsion / repulsion, material.repulsion);
+    const double gravity = std::sqrt(engine::squaredLength(context.gravity));
+    if (gravity > 0.0)
+        note += fmt::format("; drops are flattened by their weight above a radius of about {:.2g} m",
+                            engine::capillaryLength(material, gravity));
+    return note;
+}
+
 /// Chooses between b1 and compression where both are given. Without compression there is no depth.
 void settleRepulsion(Section& section, BuildContext& context) {
     const bool isCompressed = section.isGiven("compression");
@@ -140,6 +166,10 @@ engine::Thermal thermalFrom(const Section& section) {
     if (section.has("melting_range")) thermal.meltingRange = section.number("melting_range");
     if (section.has("latent")) thermal.latent = section.number("latent");
     return thermal;
+}
+
+void addNote(std::string& notes, const std::string& note) {
+    notes += (notes.empty() || note.empty() ? "" : "; ") + note;
 }
 
 void appendMaterial(Section& section, Materials& materials, BuildContext& context) {
@@ -172,22 +202,26 @@ Materials buildMaterials(std::vector<Section>& sections, const std::vector<Secti
     // The bodies find their material by its name, which all materials have by now.
     for (std::size_t index = 0; index < sections.size(); ++index) {
         Section& section = sections[index];
-        if (!checkCompression(section, context)) continue;
-        const std::string note = chooseRepulsion(section, materials.list[index], bodies, context);
-        if (!section.isValid()) continue;
-        materials.list[index].repulsion = section.number("b1");
-        materials.notes[index] += (materials.notes[index].empty() ? "" : "; ") + note;
+        if (checkCompression(section, context)) {
+            const std::string note = chooseRepulsion(section, materials.list[index], bodies, context);
+            if (!section.isValid()) continue;
+            materials.list[index].repulsion = section.number("b1");
+            addNote(materials.notes[index], note);
+        }
+        if (section.isValid()) addNote(materials.notes[index], cohere(section, materials.list[index], context));
     }
     return materials;
 }
 
 std::uint32_t materialAtRadius(Materials& materials, std::uint32_t index, double radius) {
-    const engine::Material original = materials.list[index];
+    engine::Material original = materials.list[index];
     Section& section = *materials.sections[index];
     if (radius == original.radius) return index;
+    original.repulsion = section.number("b1");  // before cohesion has raised it
     engine::Material derived = engine::withRadius(original, radius);
     for (const MaterialKey& key : kFollowing)
         if (section.isGiven(key.name)) derived.*key.member = original.*key.member;
+    derived = engine::withCohesion(derived, derived.cohesion).value_or(derived);
     derived.name = fmt::format("{} at radius {:.7g}", original.name, radius);
     for (std::uint32_t other = 0; other < materials.list.size(); ++other)
         if (materials.list[other].name == derived.name) return other;

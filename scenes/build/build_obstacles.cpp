@@ -3,6 +3,7 @@
 #include <limits>
 #include <memory>
 
+#include "engine/core/sine.h"
 #include "engine/obstacles/obstacle_surfaces.h"
 #include "scenes/build/build_shapes.h"
 #include "scenes/build/builders.h"
@@ -87,7 +88,7 @@ BuiltShape shapeFrom(Section& section, const VoxelGrid& grid, BuildContext& cont
 /// How an obstacle answers particles under the scaled wall law. Reports keys that the scene's law does not have.
 engine::WallSurface surfaceFrom(Section& section, engine::WallLaw law, BuildContext& context) {
     if (law == engine::WallLaw::paper) {
-        for (const char* name : {"restitution", "friction", "adhesion"})
+        for (const char* name : {"restitution", "friction", "adhesion", "contact_angle"})
             if (section.isGiven(name))
                 report(section, name, context, "the paper's walls have no {}; leave out physics.wall = \"paper\"",
                        name);
@@ -100,6 +101,7 @@ engine::WallSurface surfaceFrom(Section& section, engine::WallLaw law, BuildCont
     if (section.has("restitution")) surface.rebound = engine::reboundWith(section.number("restitution"));
     if (section.has("friction")) surface.friction = section.number("friction");
     surface.adhesion = section.number("adhesion");
+    surface.wetting = 1.0 + engine::sineAndCosineOfDegrees(section.number("contact_angle")).cosine;
     return surface;
 }
 

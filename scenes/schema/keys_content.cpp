@@ -312,6 +312,11 @@ std::vector<Key> obstacleKeys() {
             .within(kNotNegative),
         temperature("temperature", "temperature that it keeps, in scenes that have heat")
             .derivedAs("it takes no heat and gives none"),
+        key("contact_angle", Type::number, "degrees",
+            "angle, inside a drop, between the surface and that of a material with cohesion: 180 beads up, 0 wets; not "
+            "of the paper's walls")
+            .defaultsTo("180")
+            .within({.low = 0.0, .high = 180.0}),
         key("visible", Type::boolean, "", "whether the obstacle is drawn; planes never are")
             .defaultsTo("true")
             .onlyFor({"box", "container", "sphere", "cylinder", "cone", "frustum", "capsule", "revolution", "mesh"})

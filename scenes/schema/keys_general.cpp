@@ -110,6 +110,11 @@ std::vector<Key> materialKeys() {
             .derivedAs(preset)
             .within({.low = 1.0}),
         key("cd", Type::number, "", "cutoff of damping in rest lengths").derivedAs(preset).within(kPositive),
+        key("cohesion", Type::number, "N/m",
+            "surface tension, which makes drops and holds threads together; raises b1 where that is too small for the "
+            "density to stay; 0: none, as in the paper")
+            .defaultsTo("0")
+            .within(kNotNegative),
         key("friction", Type::number, "",
             "friction coefficient, between particles and against obstacles; 0: none, as in the paper")
             .derivedAs(preset)

@@ -195,7 +195,7 @@ TEST_CASE("No rounding lets a pair of any radii act at its cutoff", "[mixtures]"
     const auto check = [](auto number, double restLength, const Material& material) {
         using Number = decltype(number);
         const auto rest = static_cast<Number>(restLength);
-        const PairConstants<Number> c = atRestLength(constantsPerRestLength<Number>(material), rest);
+        const PairConstants<Number> c = atRestLength<false>(constantsPerRestLength<Number>(material), rest);
         const Number cutoff = static_cast<Number>(material.dampingReach) * rest;
         CHECK(pairCoefficient<PairTerms{}>(cutoff * cutoff, Number(0.1), c) == 0);
         CHECK(pairCoefficient<PairTerms{true, true, false, true}>(cutoff * cutoff, Number(0.1), c) == 0);

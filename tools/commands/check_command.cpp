@@ -102,7 +102,8 @@ Json materialJson(const engine::Material& material, const std::string& note) {
             {"bd", material.damping},        {"cr", material.repulsionReach},
             {"cd", material.dampingReach},   {"radius", material.radius},
             {"mass", material.mass},         {"core", material.coreFraction},
-            {"friction", material.friction}, {"note", note}};
+            {"friction", material.friction}, {"cohesion", material.cohesion},
+            {"note", note}};
 }
 
 /// Whether a material is a stage of one that melts; the scene file does not have it.
@@ -176,6 +177,7 @@ Json sceneJson(const scenes::Scene& scene) {
     if (terms.pair.attraction) json["terms"].push_back("attraction");
     if (terms.pair.damping) json["terms"].push_back("damping");
     if (terms.pair.friction) json["terms"].push_back("friction");
+    if (terms.pair.cohesion) json["terms"].push_back("cohesion");
     json["materials"] = Json::array();
     for (std::size_t index = 0; index < scene.setup.materials.size(); ++index)
         if (!isBetween(scene, index))
