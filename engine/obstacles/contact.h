@@ -21,8 +21,10 @@
 //   radius. It is a stress times the area of a particle in a layer of closest packing. It is not part of f, so that f
 //   balances it in an adhering particle at rest, and friction holds the particle.
 // - Wetting. To part a liquid of the surface tension sigma from a surface takes the work sigma (1 + cos theta) on a unit
-//   of area, with the contact angle theta (Young and Dupre). The pull of adhesion on one layer does that work if its
-//   stress is 2 sigma (1 + cos theta) / r: a particle at rest is a radius above the surface and has the energy -f r/2.
+//   of area, with the contact angle theta (Young and Dupre). The surface pulls on particles of such a liquid like
+//   adhesion, but fades over L = 4 radii, so that it acts on the first three layers of closest packing. They are 2
+//   sqrt(2/3) r apart, the first a radius above the surface, and have the energies -w_k L times the stress on a unit of
+//   area. The sum of w_k is 0.652 (kWettedLayers), so that the stress is sigma (1 + cos theta) / (0.652 L).
 // The steppers stop centers of particles at the surface; see obstacles/barriers.h.
 #pragma once
 
@@ -90,23 +92,31 @@ inline double hardeningAtContact(const Obstacles& obstacles, const Probe& probe)
     return 8.0 * wallStrength(probe, obstacles.gravity) / (square * square * square);
 }
 
-/// Sets the adhesion of a contact with a surface at this height (m).
-inline void setAdhesion(Contact& contact, double height, double stress, double radius) {
-    const double area = 2.0 * std::numbers::sqrt3 * radius * radius;
-    const double force = stress * area;
-    const double t = height / radius - 1.0;
+/// Adds to a contact a pull that fades beyond a particle's radius.
+/// @param t      height above that, as a share of the range
+/// @param force  of the pull, N
+/// @param range  over which it fades, m
+inline void addPull(Contact& contact, double t, double force, double range) {
     if (t <= 0.0) {
-        contact.adhesion = force;
-        contact.adhesionEnergy = force * radius * (t - 0.5);
+        contact.adhesion += force;
+        contact.adhesionEnergy += force * range * (t - 0.5);
     } else if (t < 1.0) {
-        contact.adhesion = force * (1.0 - t) * (1.0 - t) * (1.0 + 2.0 * t);
-        contact.adhesionEnergy = -force * radius * (0.5 - t + t * t * t - 0.5 * t * t * t * t);
+        contact.adhesion += force * (1.0 - t) * (1.0 - t) * (1.0 + 2.0 * t);
+        contact.adhesionEnergy -= force * range * (0.5 - t + t * t * t - 0.5 * t * t * t * t);
     }
 }
 
-/// Stress with which a surface holds particles, N/m^2.
-inline double adhesionStress(const WallSurface& wall, const Probe& probe) {
-    return wall.adhesion + 2.0 * probe.cohesion * wall.wetting / probe.radius;
+/// Adds the adhesion and the wetting of a surface.
+inline void addAdhesion(Contact& contact, const Surface& surface, const Probe& probe) {
+    const WallSurface& wall = *surface.wall;
+    const double radius = probe.radius;
+    const double area = 2.0 * std::numbers::sqrt3 * radius * radius;
+    if (wall.adhesion > 0.0) addPull(contact, surface.height / radius - 1.0, wall.adhesion * area, radius);
+    if (wall.wetting == 0.0 || probe.cohesion == 0.0) return;
+    constexpr double kWettedLayers = 0.652;  // derived, see above
+    const double range = (kWettingReach - 1.0) * radius;
+    const double stress = probe.cohesion * wall.wetting / (kWettedLayers * range);
+    addPull(contact, (surface.height - radius) / range, stress * area, range);
 }
 
 /// Sets the repulsion of a scaled wall and its damping. Force, energy and stiffness are those of pair_law.h for c_r =
@@ -144,8 +154,7 @@ inline double adhesionStress(const WallSurface& wall, const Probe& probe) {
     }
     contact.friction = surface.wall->friction.value_or(probe.friction);
     if (surface.height < probe.radius) setRepulsion(contact, surface, obstacles.gravity, probe);
-    if (const double stress = adhesionStress(*surface.wall, probe); stress > 0.0)
-        setAdhesion(contact, surface.height, stress, probe.radius);
+    addAdhesion(contact, surface, probe);
     contact.pressure *= surface.slope;
     contact.adhesion *= surface.slope;
     return contact;

@@ -215,21 +215,26 @@ double forEachSurface(const Obstacles& obstacles, const Vec3& point, double time
     });
 }
 
+/// Distance from a surface at which its pull on a liquid ends, in radii of a particle: two diameters above a particle at
+/// rest on it. Chosen: as many layers as the pull between particles reaches. With less, drops do not spread.
+inline constexpr double kWettingReach = 5.0;
+
 /// Distance of a particle's center from a surface below which the surface acts on the particle, m: the particle's
-/// radius, or its diameter where the surface is adhesive.
+/// radius, its diameter where the surface is adhesive, or kWettingReach where it pulls on liquids.
 inline double contactReach(const WallSurface& wall, double radius) {
-    return wall.adhesion > 0.0 || wall.wetting > 0.0 ? 2.0 * radius : radius;
+    if (wall.wetting > 0.0) return kWettingReach * radius;
+    return wall.adhesion > 0.0 ? 2.0 * radius : radius;
 }
 
-/// The largest contactReach() that any surface has for a particle of this radius (m).
-constexpr double largestContactReach(double radius) {
-    return 2.0 * radius;
+/// The largest contactReach() of a particle of this radius (m), where some surface pulls on liquids or where none does.
+constexpr double largestContactReach(bool isWetted, double radius) {
+    return (isWetted ? kWettingReach : 2.0) * radius;
 }
 
 /// Calls visit(Surface) for every surface that acts at a time (s) on a particle of this radius (m).
 template <class Visit>
 void forEachTouched(const Obstacles& obstacles, const Vec3& point, double time, double radius, const Visit& visit) {
-    forEachNear(obstacles, point, time, largestContactReach(radius), [&](std::size_t k) {
+    forEachNear(obstacles, point, time, largestContactReach(obstacles.index.isWetted, radius), [&](std::size_t k) {
         const WallSurface& wall = wallSurfaceOf(obstacles, k);
         const double reach = contactReach(wall, radius);
         const auto visitTouched = [&](Surface surface) {

@@ -166,6 +166,7 @@ ObstacleIndex indexOf(const Obstacles& obstacles) {
     if (obstacles.wall == WallLaw::paper) return {};
     const std::vector<Obstacle>& shapes = obstacles.shapes;
     ObstacleIndex index;
+    index.isWetted = std::ranges::any_of(obstacles.surfaces, [](const WallSurface& s) { return s.wetting > 0.0; });
     std::vector<BoundingBox> boxes;
     for (std::uint32_t k = 0; k < shapes.size(); ++k) {
         const bool isEndless = std::holds_alternative<Plane>(shapes[k]) || std::holds_alternative<Container>(shapes[k]);
@@ -175,7 +176,7 @@ ObstacleIndex indexOf(const Obstacles& obstacles) {
         const BoundingBox bounds = *boundsOf(shapes[k]);
         boxes.push_back(isPlaced(obstacles, k) ? boundsIn(poseAt(obstacles.motions[k], 0.0), bounds) : bounds);
     }
-    if (boxes.size() < kFewest) return {};
+    if (boxes.size() < kFewest) return {.solids = {}, .obstacleOf = {}, .unbounded = {}, .isWetted = index.isWetted};
     index.solids = BoundingBoxTree(boxes);
     return index;
 }

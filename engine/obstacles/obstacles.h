@@ -116,6 +116,7 @@ struct ObstacleIndex {
     std::vector<std::uint32_t> obstacleOf;  ///< the obstacle that each box of the tree stands for
     /// Those that are looked at everywhere: planes and containers, whose solid has no end, and what is turned or moves.
     std::vector<std::uint32_t> unbounded;
+    bool isWetted = false;  ///< whether a surface pulls on liquids, and so acts from further away
 };
 
 /// The poses of all obstacles at a time; kept, because most particles ask for the same moment.

@@ -143,7 +143,8 @@ ContactBounds findContactBounds(const Obstacles& obstacles, const Probe& particl
     const double pathLength = std::isinf(duration) ? duration : duration * bounds.speed;
     const double radius = particle.radius;
     const double ahead = std::isinf(pathLength) ? kLookAhead * radius : std::max(pathLength, kLookAhead * radius);
-    const double reach = largestContactReach(radius) + ahead;
+    const double farthest = largestContactReach(obstacles.index.isWetted, radius);
+    const double reach = farthest + ahead;
     const bool arePlaced = !obstacles.motions.empty();
     const double beyond = forEachSurface(
         obstacles, particle.position, particle.time, reach, [&](const Surface& surface) __attribute__((always_inline)) {
@@ -165,8 +166,8 @@ ContactBounds findContactBounds(const Obstacles& obstacles, const Probe& particl
     if (std::isinf(beyond)) return bounds;
     // Obstacles that are left out are scaled walls, since the paper's have no index and do not move, and out of reach:
     // scaledScale() of a surface without contact is two radii.
-    bounds.gap = std::min(bounds.gap, beyond - largestContactReach(radius));
-    bounds.reach = std::min(bounds.reach, beyond - largestContactReach(radius));
+    bounds.gap = std::min(bounds.gap, beyond - farthest);
+    bounds.reach = std::min(bounds.reach, beyond - farthest);
     bounds.scale = std::min(bounds.scale, 2.0 * radius);
     return bounds;
 }

@@ -165,7 +165,7 @@ void checkPaperWalls(Section& section, BuildContext& context) {
 
 /// The grid of the distances from a mesh: voxels are half as wide as the smallest particle's radius, and the band
 /// reaches as far as a surface may act on the largest.
-VoxelGrid voxelGridFor(const Materials& materials, const Scene& scene) {
+VoxelGrid voxelGridFor(const Materials& materials, const std::vector<Section>& sections, const Scene& scene) {
     double smallest = std::numeric_limits<double>::infinity();
     double largest = 0.0;
     const auto include = [&](double radius) {
@@ -175,7 +175,10 @@ VoxelGrid voxelGridFor(const Materials& materials, const Scene& scene) {
     for (const engine::Material& material : materials.list) include(material.radius);
     for (const double radius : scene.setup.initial.radius) include(radius);
     const double voxel = 0.5 * smallest;
-    return {voxel, engine::largestContactReach(largest) + voxel};
+    const bool isWetted = std::ranges::any_of(sections, [](const Section& section) {
+        return section.has("contact_angle") && section.number("contact_angle") < 180.0;
+    });
+    return {voxel, engine::largestContactReach(isWetted, largest) + voxel};
 }
 
 /// Checks the keys of an obstacle's shape against one another.
@@ -213,7 +216,7 @@ void buildObstacles(std::vector<Section>& sections, const Section& physics, cons
     engine::Obstacles& obstacles = scene.setup.obstacles;
     const bool isPaper = physics.has("wall") && physics.string("wall") == "paper";
     obstacles.wall = isPaper ? engine::WallLaw::paper : engine::WallLaw::scaled;
-    const VoxelGrid grid = voxelGridFor(materials, scene);
+    const VoxelGrid grid = voxelGridFor(materials, sections, scene);
     for (Section& section : sections) {
         if (!section.has("shape")) continue;
         checkShape(section, context);

@@ -1,0 +1,162 @@
+// Simulations of surface tension: a cube becomes a ball, the tension of drops is the one that the scene asks for, a
+// thread breaks into drops, and what wets a plate hangs from it.
+#include "tests/catch.h"
+#include "tests/scenes/scene_text.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "engine/forces/forces.h"
+#include "engine/run/advance.h"
+
+using engine::Particles;
+using engine::Vec3;
+using scenes_test::sceneOf;
+
+namespace {
+
+/// A scene without gravity of oil with a surface tension of 10 N/m, but for its bodies.
+std::string oilScene(const std::string& material, double seconds) {
+    return "title = \"drops\"\nduration = " + std::to_string(seconds) +
+           "\n[physics]\ngravity = [0, 0, 0]\nstepper = \"velocity-verlet\"\nstep = 0.004\n[[material]]\npreset = "
+           "\"oil\"\n" +
+           material;
+}
+
+engine::Simulation simulated(const std::string& text) {
+    const scenes::Scene scene = sceneOf(text);
+    engine::Simulation simulation = engine::start(scene.setup);
+    engine::advance(simulation, scene.duration);
+    return simulation;
+}
+
+Vec3 centerOf(const Particles& particles) {
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& position : particles.position) sum += position;
+    return sum / static_cast<double>(particles.count());
+}
+
+/// sum x^4 + y^4 + z^4 over sum r^4 from the center: 0.474 for a cube, 0.600 for a ball.
+double roundnessOf(const Particles& particles) {
+    const Vec3 center = centerOf(particles);
+    double fourths = 0.0;
+    double all = 0.0;
+    for (const Vec3& position : particles.position) {
+        const Vec3 from = position - center;
+        all += std::pow(from.squaredNorm(), 2);
+        fourths += from.array().pow(4).sum();
+    }
+    return fourths / all;
+}
+
+/// Energy of the pairs of particles, J.
+double energyOf(const engine::Simulation& simulation) {
+    return engine::pairEnergyReference(forceFieldOf(simulation.setup), simulation.particles);
+}
+
+/// Number of pieces: sets of particles that are not within a distance of each other.
+std::size_t pieceCount(const Particles& particles, double distance) {
+    std::size_t pieces = 0;
+    std::vector<bool> isSeen(particles.count());
+    for (std::size_t start = 0; start < particles.count(); ++start) {
+        if (isSeen[start]) continue;
+        ++pieces;
+        std::vector<std::size_t> open = {start};
+        isSeen[start] = true;
+        while (!open.empty()) {
+            const std::size_t p = open.back();
+            open.pop_back();
+            for (std::size_t i = 0; i < particles.count(); ++i) {
+                if (isSeen[i] || (particles.position[p] - particles.position[i]).norm() > distance) continue;
+                isSeen[i] = true;
+                open.push_back(i);
+            }
+        }
+    }
+    return pieces;
+}
+
+std::string ball(double radius) {
+    return "[[body]]\nshape = \"ball\"\ncenter = [0, 0, 0]\nradius = " + std::to_string(radius) + "\n";
+}
+
+}  // namespace
+
+TEST_CASE("a cube of a liquid with cohesion becomes a ball", "[drops]") {
+    const std::string cube = "[[body]]\nshape = \"box\"\nminimum = [-0.7, -0.7, -0.7]\nmaximum = [0.7, 0.7, 0.7]\n";
+    const engine::Simulation with = simulated(oilScene("cohesion = 10\n", 4.0) + cube);
+    const engine::Simulation without = simulated(oilScene("", 4.0) + cube);
+    CHECK(roundnessOf(with.particles) > 0.56);
+    CHECK(roundnessOf(without.particles) < 0.50);
+    // Its volume stays: the radius of gyration of a ball of the same volume is sqrt(3/5) R.
+    const double volume = static_cast<double>(with.particles.count()) * std::pow(0.16, 3) / std::sqrt(2.0);
+    const double radius = std::cbrt(0.75 * volume / std::numbers::pi);
+    const Vec3 center = centerOf(with.particles);
+    double square = 0.0;
+    for (const Vec3& position : with.particles.position) square += (position - center).squaredNorm();
+    const double gyration = std::sqrt(square / static_cast<double>(with.particles.count()));
+    CHECK(gyration == Approx(std::sqrt(0.6) * radius).epsilon(0.08));  // a tenth of a particle's diameter
+}
+
+TEST_CASE("drops have the surface energy and the pressure of their tension", "[drops]") {
+    // A drop's energy is that of its bulk, which goes with the number of particles, and of its surface: 4 pi R^2 sigma.
+    constexpr double kTension = 10.0;
+    struct Drop {
+        double count, area, energy;
+    };
+    std::vector<Drop> drops;
+    for (const double radius : {0.7, 1.1}) {
+        const engine::Simulation drop = simulated(oilScene("cohesion = 10\nbd = 0.5\n", 3.0) + ball(radius));
+        const auto count = static_cast<double>(drop.particles.count());
+        const double volume = count * std::pow(0.16, 3) / std::sqrt(2.0);
+        const double area = std::pow(36.0 * std::numbers::pi * volume * volume, 1.0 / 3.0);
+        drops.push_back({count, area, energyOf(drop)});
+    }
+    const auto& [small, large] = std::tie(drops[0], drops[1]);
+    const double ratio = large.count / small.count;
+    const double tension = (large.energy - ratio * small.energy) / (large.area - ratio * small.area);
+    CHECK(tension == Approx(kTension).epsilon(0.15));  // kRelaxation is measured to 4 %, and differs by 8 % by size
+}
+
+TEST_CASE("a thread with cohesion breaks into drops", "[drops]") {
+    // Plateau and Rayleigh: a thread is unstable to waves longer than its circumference, and grows fastest at 9 radii.
+    const std::string thread = R"([[body]]
+shape = "capsule"
+center = [0, 0, 0]
+radius = 0.24
+height = 5.5
+rotation = [0, 0, 90]
+)";
+    const engine::Simulation with = simulated(oilScene("cohesion = 20\nbd = 0.1\n", 6.0) + thread);
+    const std::size_t pieces = pieceCount(with.particles, 0.3);
+    CHECK(pieces >= 2);
+    CHECK(pieces <= 8);
+}
+
+TEST_CASE("a liquid that wets a plate hangs from it", "[drops]") {
+    const auto heightWith = [](const std::string& angle) {
+        const engine::Simulation hanging = simulated(R"(title = "spoon"
+duration = 2
+[physics]
+stepper = "velocity-verlet"
+step = 0.003
+[[material]]
+preset = "honey"
+cohesion = 20
+[[body]]
+shape = "ball"
+center = [0, -0.3, 0]
+radius = 0.3
+[[obstacle]]
+shape = "box"
+minimum = [-2, 0, -2]
+maximum = [2, 0.5, 2]
+)" + angle);
+        return centerOf(hanging.particles).y();
+    };
+    CHECK(heightWith("contact_angle = 30\n") > -0.4);
+    CHECK(heightWith("") < -2.0);  // half of 9.8 m/s^2 (2 s)^2, less what the drag of nothing takes
+}
