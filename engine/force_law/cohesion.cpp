@@ -1,8 +1,8 @@
 // The pull and the repulsion of a material with a surface tension.
 //
-// Tension. To part a liquid along a plane takes the energy of all pairs across the plane, and makes two surfaces. With n
-// particles in a unit of volume, n |D_z| / 2 pairs for each separation D cross a unit of area whose normal is z, and the
-// mean of |D_z| over all directions is D/2. Hence
+// Tension. To part a liquid along a plane takes the energy of all pairs across the plane, and makes two surfaces. With
+// n particles in a unit of volume, n |D_z| / 2 pairs for each separation D cross a unit of area whose normal is z, and
+// the mean of |D_z| over all directions is D/2. Hence
 //     sigma = -(n/8) sum_j D_j U(D_j),
 // over the neighbors j of one particle. For a liquid without structure the sum is an integral, and by parts
 // sigma = (pi/8) n^2 integral D^4 U'(D) dD, the formula of Fowler and of Kirkwood and Buff. The surface of a drop then
@@ -12,9 +12,9 @@
 // The pull alone would draw it together, and the repulsion of equation 2 ends at D0. So that a balance is possible, the
 // repulsion has the rest length lambda D0 instead, with a rest ratio lambda above 1. The lattice then needs
 //     b1 = B(lambda) kappa D0^5,   sigma = T(lambda) kappa,
-// with B and T from the sums above for kappa = D0 = 1. B falls with lambda: what repels from further away has to be less
-// strong. A given b1 and sigma therefore have one lambda. It is at most kMostRestRatio; what would need more gets a larger
-// b1 instead.
+// with B and T from the sums above for kappa = D0 = 1. B falls with lambda: what repels from further away has to be
+// less strong. A given b1 and sigma therefore have one lambda. It is at most kMostRestRatio; what would need more gets
+// a larger b1 instead.
 #include "engine/force_law/cohesion.h"
 
 #include <algorithm>
@@ -27,13 +27,13 @@ namespace engine {
 namespace {
 
 /// Largest rest ratio. Chosen: the softer the repulsion, the less a drop is a crystal, and the longer the steps. A cube
-/// of 1000 particles of oil and 10 N/m has a shape sum x^4 / sum r^4 (cube .474, ball .600) of .561, .584 and .583 after
-/// 4 s at a ratio of 1.25, 1.6 and 2.1.
+/// of 1000 particles of oil and 10 N/m has a shape sum x^4 / sum r^4 (cube .474, ball .600) of .561, .584 and .583
+/// after 4 s at a ratio of 1.25, 1.6 and 2.1.
 constexpr double kMostRestRatio = 1.6;
 
-/// Surface tension of drops over that of the lattice. Measured: the energies of drops of 1000 and 5000 particles at rest
-/// are those of a bulk and a surface of 0.75, 0.80 and 0.81 times the lattice's tension at rest ratios of 1.6, 1.3 and
-/// 1.15; their pressure is 2 sigma/R with 0.78.
+/// Surface tension of drops over that of the lattice. Measured: the energies of drops of 1000 and 5000 particles at
+/// rest are those of a bulk and a surface of 0.75, 0.80 and 0.81 times the lattice's tension at rest ratios of 1.6, 1.3
+/// and 1.15; their pressure is 2 sigma/R with 0.78.
 constexpr double kRelaxation = 0.78;
 
 /// How often an interval of rest ratios is halved: until it is no wider than rounding.

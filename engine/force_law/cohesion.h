@@ -24,8 +24,8 @@ std::optional<Material> withCohesion(const Material& material, double cohesion);
 /// Surface tension of a material in N/m, as follows from its pull and its repulsion.
 double surfaceTension(const Material& material);
 
-/// Capillary length sqrt(sigma/(rho g)) of a material, in meters: about the radius above which its drops are flattened by
-/// their own weight.
+/// Capillary length sqrt(sigma/(rho g)) of a material, in meters: about the radius above which its drops are flattened
+/// by their own weight.
 /// @param gravity  m/s^2, above 0
 double capillaryLength(const Material& material, double gravity);
 

@@ -1,6 +1,6 @@
 // The face-centered cubic lattice, which stands for a liquid of the same density in compression.cpp and cohesion.cpp:
-// both have nearly as many neighbors at nearly the same distances. The neighbors of a particle are in shells: c_n of them
-// at a distance of sqrt(n) spacings, n = 1, 2, 3, ...
+// both have nearly as many neighbors at nearly the same distances. The neighbors of a particle are in shells: c_n of
+// them at a distance of sqrt(n) spacings, n = 1, 2, 3, ...
 #pragma once
 
 #include <array>

@@ -38,14 +38,14 @@ std::optional<Material> materialPreset(std::string_view name);
 
 /// The material with particles of another radius (m). The mass grows with the third power of the radius, b1 with the
 /// sixth and b_d with the first, which leaves density, stiffness and viscosity as they are: pressures are b1/D0^6 times
-/// a function of how far the particles are compressed, and viscous stresses b_d/D0 times the rate of strain. The surface
-/// tension stays the same as well, but the pull that makes it is stronger for finer particles: withCohesion() is to be
-/// called afterwards.
+/// a function of how far the particles are compressed, and viscous stresses b_d/D0 times the rate of strain. The
+/// surface tension stays the same as well, but the pull that makes it is stronger for finer particles: withCohesion()
+/// is to be called afterwards.
 Material withRadius(const Material& material, double radius);
 
 /// The material by which two particles of different materials interact: geometric means of b1, b_d, mu and the pull,
-/// arithmetic means of the reaches, of the core and of the rest ratio. The result is the same for either order of the arguments, so that a pair
-/// conserves momentum. Its radius and mass have no meaning.
+/// arithmetic means of the reaches, of the core and of the rest ratio. The result is the same for either order of the
+/// arguments, so that a pair conserves momentum. Its radius and mass have no meaning.
 Material mixed(const Material& a, const Material& b);
 
 }  // namespace engine

@@ -2,8 +2,9 @@
 // into namespace engine for double and float; simd_forces.cpp and external_forces.cpp include it again for each
 // instruction set, because a function that is inlined into a SIMD kernel must be compiled for that instruction set.
 // Hence there is no include guard and no namespace here, and the formulas use nothing but +, -, *, / and larger(),
-// atLeast(), atMost(), times(), lessFrom(), positivePart(), reciprocal() and squareRoot(), which the includer defines for its Number. Every path
-// computes the same bits. All functions are forced inline, so that a kernel computes once what two of them share.
+// atLeast(), atMost(), times(), lessFrom(), positivePart(), reciprocal() and squareRoot(), which the includer defines
+// for its Number. Every path computes the same bits. All functions are forced inline, so that a kernel computes once
+// what two of them share.
 //
 // With the symbols of pair_law.h, m = 5, n = 3 and b2 = b1/D0^2, equation 2 is P times the coefficient
 //     s_r (b1/D^5 - b2/D^3) - s_d b_d (V.P)/D^2,   s_r = max(0, 1 - D^2/R^2),  s_d = max(0, 1 - D^2/S^2)

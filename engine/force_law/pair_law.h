@@ -128,8 +128,8 @@ PairConstants<Number> pairConstants(const Material& material, double restLength)
 }
 
 /// The constants at a rest length of 1 m, from which atRestLength() computes those of pairs of any radii. 1/R^2 and
-/// 1/S^2 are a few units in the last place too large, and S_c^2 is as much too small, so that no rounding lets a pair act
-/// at or beyond its cutoff.
+/// 1/S^2 are a few units in the last place too large, and S_c^2 is as much too small, so that no rounding lets a pair
+/// act at or beyond its cutoff.
 template <std::floating_point Number>
 PairConstants<Number> constantsPerRestLength(const Material& material) {
     // Six roundings by half a unit each, of D0, 1/D0^2, the constants here and their product.

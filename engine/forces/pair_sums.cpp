@@ -71,8 +71,7 @@ template <Variant variant>
         sums.force -= slip.damping * slip.velocity;
     }
     if constexpr (variant.hasEnergy)
-        if (distanceSq < reachSq)
-            sums.energy += 0.5 * energyOf(pair.p, pair.i, std::sqrt(distanceSq), constants);
+        if (distanceSq < reachSq) sums.energy += 0.5 * energyOf(pair.p, pair.i, std::sqrt(distanceSq), constants);
     return slip.damping;
 }
 

@@ -46,8 +46,7 @@ PairTableIn<T> tableOf(const std::vector<Material>& mixtures, double restLength,
         for (std::size_t field = 0; field < fields.size(); ++field) table.columns[field][k] = fields[field];
         const PullTableRow<T>& pull = table.pullRows[k];
         const std::array<T, 4> pullFields = {pull.pull, pull.pullReachSq, pull.inversePullWidth, pull.inverseRestSq};
-        for (std::size_t field = 0; field < pullFields.size(); ++field)
-            table.pullColumns[field][k] = pullFields[field];
+        for (std::size_t field = 0; field < pullFields.size(); ++field) table.pullColumns[field][k] = pullFields[field];
     }
     return table;
 }

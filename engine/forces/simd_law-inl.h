@@ -202,8 +202,8 @@ struct MixedLaws {
             // The coefficient falls with the fifth power of the rest length.
             V inverseSq = c.inverseRestSq;
             if constexpr (variant.terms.cohesion) inverseSq = reciprocal(hn::Mul(restLength, restLength));
-            law.halfSlope = hn::Mul(hn::Mul(row.halfSlope, inverseSq),
-                                    hn::Mul(inverseSq, hn::Mul(restLength, inverseSq)));
+            law.halfSlope =
+                hn::Mul(hn::Mul(row.halfSlope, inverseSq), hn::Mul(inverseSq, hn::Mul(restLength, inverseSq)));
         }
         law.inverseReach = hn::Mul(law.reach, c.inverseReachSq);
         law.inverseReachCubed = hn::Mul(law.inverseReach, c.inverseReachSq);

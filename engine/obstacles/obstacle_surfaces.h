@@ -215,8 +215,8 @@ double forEachSurface(const Obstacles& obstacles, const Vec3& point, double time
     });
 }
 
-/// Distance from a surface at which its pull on a liquid ends, in radii of a particle: two diameters above a particle at
-/// rest on it. Chosen: as many layers as the pull between particles reaches. With less, drops do not spread.
+/// Distance from a surface at which its pull on a liquid ends, in radii of a particle: two diameters above a particle
+/// at rest on it. Chosen: as many layers as the pull between particles reaches. With less, drops do not spread.
 inline constexpr double kWettingReach = 5.0;
 
 /// Distance of a particle's center from a surface below which the surface acts on the particle, m: the particle's

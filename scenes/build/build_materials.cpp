@@ -132,15 +132,17 @@ std::string cohere(Section& section, engine::Material& material, BuildContext& c
     const double repulsion = material.repulsion;
     const auto cohesive = engine::withCohesion(material, material.cohesion);
     if (!cohesive) {
-        report(section, "cohesion", context,
-               "cohesion needs a cr of at most {:.4g}, which is {}: particles that attract beyond their nearest neighbors "
-               "draw together by themselves",
-               engine::kMostCohesiveReach, section.canonical("cr"));
+        report(
+            section, "cohesion", context,
+            "cohesion needs a cr of at most {:.4g}, which is {}: particles that attract beyond their nearest neighbors "
+            "draw together by themselves",
+            engine::kMostCohesiveReach, section.canonical("cr"));
         return {};
     }
     material = *cohesive;
     std::string note = fmt::format("cohesion {} N/m", section.canonical("cohesion"));
-    if (material.pull == 0.0) note += fmt::format(" is no more than cr makes already, {:.3g}", surfaceTension(material));
+    if (material.pull == 0.0)
+        note += fmt::format(" is no more than cr makes already, {:.3g}", surfaceTension(material));
     if (material.repulsion > repulsion)
         note += fmt::format(" raises b1 {:.3g} times to {:.3g}", material.repulsion / repulsion, material.repulsion);
     const double gravity = std::sqrt(engine::squaredLength(context.gravity));

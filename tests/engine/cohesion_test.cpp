@@ -67,8 +67,7 @@ TEST_CASE("no pair acts at or beyond the reach of the pull", "[cohesion]") {
     const Material material = cohesive("oil", 5.0);
     for (const double restLength : {0.1, 0.16, 0.333, 1.7}) {
         const auto exact = pairConstants<double>(material, restLength);
-        const auto perRestLength =
-            atRestLength<true>(constantsPerRestLength<double>(material), restLength);
+        const auto perRestLength = atRestLength<true>(constantsPerRestLength<double>(material), restLength);
         const auto perRestLengthFloat =
             atRestLength<true>(constantsPerRestLength<float>(material), static_cast<float>(restLength));
         const double reach = kPullReach * restLength;

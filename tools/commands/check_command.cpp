@@ -98,11 +98,16 @@ Json boundJson(const scenes::Scene& scene, const std::string& stepperName) {
 
 /// The constants of a material, under the names of the keys of a scene file, and why mass, b1 and bd are what they are.
 Json materialJson(const engine::Material& material, const std::string& note) {
-    return {{"name", material.name},         {"b1", material.repulsion},
-            {"bd", material.damping},        {"cr", material.repulsionReach},
-            {"cd", material.dampingReach},   {"radius", material.radius},
-            {"mass", material.mass},         {"core", material.coreFraction},
-            {"friction", material.friction}, {"cohesion", material.cohesion},
+    return {{"name", material.name},
+            {"b1", material.repulsion},
+            {"bd", material.damping},
+            {"cr", material.repulsionReach},
+            {"cd", material.dampingReach},
+            {"radius", material.radius},
+            {"mass", material.mass},
+            {"core", material.coreFraction},
+            {"friction", material.friction},
+            {"cohesion", material.cohesion},
             {"note", note}};
 }
 
