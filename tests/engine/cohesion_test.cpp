@@ -8,6 +8,7 @@
 #include "engine/force_law/compression.h"
 #include "engine/force_law/pair_law.h"
 #include "engine/forces/forces.h"
+#include "engine/obstacles/contact.h"
 #include "tests/engine/clouds.h"
 #include "tests/engine/rounding.h"
 
@@ -173,4 +174,33 @@ TEST_CASE("cohesion keeps momentum and angular momentum", "[cohesion]") {
     }
     CHECK(force.norm() <= 1e3 * kEps * size);   // 300 particles, some roundings each
     CHECK(torque.norm() <= 1e3 * kEps * size);  // positions are up to 1.7 m from the origin
+}
+
+TEST_CASE("the pull of a wetted surface is the derivative of its energy", "[cohesion]") {
+    Obstacles obstacles;
+    obstacles.wall = WallLaw::scaled;
+    obstacles.shapes = {Plane{}};
+    obstacles.surfaces = {{.wetting = 1.5}};
+    const double radius = 0.08;
+    const auto contactAt = [&](double height) {
+        const Probe probe{
+            .position = height * Vec3::UnitY(), .radius = radius, .mass = 0.05, .repulsion = 0.0015, .cohesion = 10.0};
+        return sumContacts(obstacles, probe);
+    };
+    const double h = 1e-6 * radius;
+    const double largest = std::abs(contactAt(1.001 * radius).force.y());
+    CHECK(contactAt(1.001 * radius).force.y() < 0.0);
+    for (const double ratio : {0.6, 0.95, 1.1, 2.0, 3.0, 4.0, 4.9, 5.5}) {
+        const double height = ratio * radius;
+        const double slope = (contactAt(height + h).energy - contactAt(height - h).energy) / (2.0 * h);
+        INFO("height " << ratio << " radii");
+        // Central differences err by 1e-12 of the force, and by the rounding of the energy over h.
+        CHECK(std::abs(contactAt(height).force.y() + slope) <= 1e-7 * largest);
+    }
+    CHECK(contactAt(kWettingReach * radius).force.y() == 0.0);
+    // Parting the first three layers of closest packing takes sigma (1 + cos theta) on a unit of area.
+    double work = 0.0;
+    for (int layer = 0; layer < 3; ++layer)
+        work -= contactAt((1.0 + 2.0 * layer * std::sqrt(2.0 / 3.0)) * radius).energy;
+    CHECK(work / (2.0 * std::sqrt(3.0) * radius * radius) == Approx(15.0).epsilon(1e-3));  // 0.652 has three digits
 }

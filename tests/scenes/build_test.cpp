@@ -329,6 +329,10 @@ TEST_CASE("obstacles answer as scaled walls unless the scene asks for the paper'
     CHECK(plain.surfaces.at(0).rebound.isDampedByMaterial);
     CHECK(!plain.surfaces.at(0).friction.has_value());
     CHECK(plain.surfaces.at(0).adhesion == 0.0);
+    CHECK(plain.surfaces.at(0).wetting == 0.0);
+    // 1 + cos 60 degrees, whose sine and cosine are right to 4e-16.
+    CHECK(obstacleScene(plane + "contact_angle = 60\n").setup.obstacles.surfaces.at(0).wetting ==
+          Approx(1.5).epsilon(1e-15));
     const engine::Obstacles given =
         obstacleScene(plane + "restitution = 0.7\nfriction = 0.3\nadhesion = 20\n").setup.obstacles;
     CHECK(given.surfaces.at(0).rebound.restitution == 0.7);

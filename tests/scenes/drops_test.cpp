@@ -120,7 +120,7 @@ TEST_CASE("a cube of a liquid with cohesion becomes a ball", "[drops][long]") {
     CHECK(gyration == Approx(std::sqrt(0.6) * radius).epsilon(0.08));  // a tenth of a particle's diameter
 }
 
-TEST_CASE("drops have the surface energy and the pressure of their tension", "[drops][long]") {
+TEST_CASE("drops have the surface energy of their tension", "[drops][long]") {
     // A drop's energy is that of its bulk, which goes with the number of particles, and of its surface: 4 pi R^2 sigma.
     constexpr double kTension = 10.0;
     struct Drop {
@@ -133,16 +133,24 @@ TEST_CASE("drops have the surface energy and the pressure of their tension", "[d
         const double volume = count * std::pow(0.16, 3) / std::sqrt(2.0);
         const double area = std::pow(36.0 * std::numbers::pi * volume * volume, 1.0 / 3.0);
         drops.push_back({count, area, energyOf(drop)});
-        if (radius < 1.0) continue;
-        // Laplace. The pull of the surface does not reach the inner four tenths.
-        const double laplace = 2.0 * kTension / std::sqrt(area / (4.0 * std::numbers::pi));
-        CHECK(innerPressure(drop, 0.4 * radius) == Approx(laplace).epsilon(0.2));  // measured: 0.97 to 1.1 of it
     }
     const Drop& small = drops[0];
     const Drop& large = drops[1];
     const double ratio = large.count / small.count;
     const double tension = (large.energy - ratio * small.energy) / (large.area - ratio * small.area);
     CHECK(tension == Approx(kTension).epsilon(0.15));  // kRelaxation is measured to 4 %, and differs by 8 % by size
+}
+
+TEST_CASE("the pressure in a drop is that of Laplace", "[drops][long]") {
+    // It starts as a grid, far from the densest packing: a ball of that lattice would bear a stress like a solid.
+    const engine::Simulation drop = simulated(
+        oilScene("cohesion = 10\nbd = 0.5\n", 5.0) +
+        "[[body]]\nshape = \"grid\"\ncounts = [12, 12, 12]\nspacing = 0.1426\njitter = 0.1\ncenter = [0, 0, 0]\n");
+    const double volume = static_cast<double>(drop.particles.count()) * std::pow(0.16, 3) / std::sqrt(2.0);
+    const double radius = std::cbrt(0.75 * volume / std::numbers::pi);
+    // The pull of the surface does not reach the inner four tenths. Measured are 1.03 and 0.99 times Laplace's pressure
+    // in drops of 2000 and 5000 particles, and 0.83 here, where 110 particles lie there.
+    CHECK(innerPressure(drop, 0.4 * radius) == Approx(2.0 * 10.0 / radius).epsilon(0.2));
 }
 
 TEST_CASE("a bridge between two plates breaks if it is longer than its circumference", "[drops][long]") {
