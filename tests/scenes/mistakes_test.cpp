@@ -357,10 +357,9 @@ TEST_CASE("a file that is not a scene gives a bounded number of problems") {
 TEST_CASE("surface tensions and contact angles that make no sense are refused") {
     const auto material = [](const std::string& lines) { return problemsOf(kBall + "[[material]]\n" + lines); };
     CHECK(material("preset = \"oil\"\ncohesion = -1\n") == Lines{"pile.toml:8:12: cohesion is -1, must be >= 0 (N/m)"});
-    CHECK(
-        material("preset = \"solid\"\ncohesion = 1\n") ==
-        Lines{"pile.toml:8:12: cohesion needs a cr of at most 1.414, which is 2.0: particles that attract beyond their "
-              "nearest neighbors draw together by themselves"});
+    CHECK(material("preset = \"solid\"\ncohesion = 1\n") ==
+          Lines{"pile.toml:8:12: cohesion needs a cr of at most 1.414, which is 2: particles that attract beyond their "
+                "nearest neighbors draw together by themselves"});
     CHECK(material("preset = \"solid\"\ncr = 1.2\ncohesion = 1\n") == Lines{});
     CHECK(problemsOf(kBall + "[[obstacle]]\nshape = \"plane\"\ncontact_angle = 200\n") ==
           Lines{"pile.toml:8:17: contact_angle is 200, must be 0 to 180 (degrees)"});
