@@ -85,7 +85,7 @@ class StageChange {
  private:
     double energyOf(std::uint32_t p, std::uint32_t i, double restLength, double distance) const {
         const PairConstants<double> constants = pairs_.table.constantsOf(pairs_.materials, p, i);
-        return pairEnergy(distance, pairs_.terms.oneRadius ? constants : atRestLength(constants, restLength));
+        return pairEnergy(distance, pairs_.terms.oneRadius ? constants : atRestLength<true>(constants, restLength));
     }
 
     const Simulation& simulation_;

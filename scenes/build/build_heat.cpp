@@ -43,7 +43,7 @@ void checkMaterial(Section& section, BuildContext& context) {
 }
 
 /// The index of the material that a table melts to; nothing, with the problem recorded, if there is none.
-std::optional<std::size_t> meltedOf(Section& section, const Materials& materials, BuildContext& context) {
+std::optional<std::uint32_t> meltedOf(Section& section, const Materials& materials, BuildContext& context) {
     const std::string& name = section.string("melts_to");
     const auto found = std::ranges::find(materials.list, name, &engine::Material::name);
     if (found == materials.list.end())
@@ -51,7 +51,7 @@ std::optional<std::size_t> meltedOf(Section& section, const Materials& materials
     else if (name == section.string("name"))
         report(section, "melts_to", context, "a material cannot melt to itself");
     else
-        return static_cast<std::size_t>(found - materials.list.begin());
+        return static_cast<std::uint32_t>(found - materials.list.begin());
     return std::nullopt;
 }
 
@@ -63,9 +63,9 @@ std::uint32_t stageCount(std::size_t materials, std::size_t melts) {
 }
 
 /// Adds the stages of a material that melts.
-engine::Melt addStages(std::uint32_t solid, std::size_t melted, std::uint32_t count, Materials& materials) {
+engine::Melt addStages(std::uint32_t solid, std::uint32_t melted, std::uint32_t count, Materials& materials) {
     const engine::Material from = materials.list[solid];
-    engine::Material to = engine::withRadius(materials.list[melted], from.radius);
+    const engine::Material to = materials.list[melted];
     const engine::Melt melt{solid, static_cast<std::uint32_t>(materials.list.size()), count};
     for (engine::Material& stage : engine::stagesOf(from, to, count)) {
         const double share = static_cast<double>(materials.list.size() - melt.first + 1) / count;
@@ -79,11 +79,14 @@ engine::Melt addStages(std::uint32_t solid, std::size_t melted, std::uint32_t co
 }
 
 std::vector<engine::Melt> addMelts(Materials& materials, BuildContext& context) {
-    std::vector<std::pair<std::uint32_t, std::size_t>> pairs;
-    for (std::uint32_t index = 0; index < materials.list.size(); ++index) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+    const std::size_t given = materials.list.size();
+    for (std::uint32_t index = 0; index < given; ++index) {
         Section& section = *materials.sections[index];
         if (!section.isValid() || !section.has("melts_to")) continue;
-        if (const auto melted = meltedOf(section, materials, context)) pairs.emplace_back(index, *melted);
+        const auto melted = meltedOf(section, materials, context);
+        if (melted && materials.sections[*melted]->isValid())
+            pairs.emplace_back(index, materialAtRadius(materials, *melted, materials.list[index].radius));
     }
     std::vector<engine::Melt> melts;
     const std::uint32_t count = stageCount(materials.list.size(), pairs.size());
