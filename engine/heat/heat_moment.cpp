@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "engine/core/parallel.h"
@@ -22,22 +23,31 @@ double lostEnergy(const Simulation& simulation) {
     return cache.energyAtHeat - (*cache.energy - cache.workAtEnergy);
 }
 
-/// Gives the particles the heat that their motion has lost.
-void bookLostEnergy(Simulation& simulation, const HeatNetwork& network) {
+/// Heat of damping is given to the particles as soon as it warms all of them by this much in the mean, K. Chosen: no
+/// scene shows it, and most exchanges need not find out who is damped.
+constexpr double kLeastWarming = 1e-4;
+
+/// Books the heat that motion has lost, and gives it to the particles once it is worth it.
+void bookLostEnergy(Simulation& simulation, const PairTraversal& pairs, HeatNetwork& network) {
     HeatState& state = simulation.heat;
-    const double heat = lostEnergy(simulation) + state.owed;
-    state.owed = std::min(heat, 0.0);
-    if (!(heat > 0.0)) return;
+    const double lost = lostEnergy(simulation);
+    state.damped += lost;
+    state.pending += lost;
     Particles& particles = simulation.particles;
+    const double capacity = exactSum(*simulation.ranks, particles.count(), [&](std::size_t p) {
+        return particles.mass[p] * simulation.setup.materials[particles.material[p]].thermal.capacity;
+    });
+    if (!(state.pending > kLeastWarming * capacity)) return;
+    findDissipation(pairs, particles, network);
     const std::array<double, 2> sums = exactSums<2>(*simulation.ranks, particles.count(), [&](std::size_t p) {
         return std::array{network.dissipation[p], particles.mass[p]};
     });
     // Where nothing is damped at this moment, all have a share.
     const bool isDamped = sums[0] > 0.0;
+    const double heat = std::exchange(state.pending, 0.0);
     inParallel(particles.count(), kParticleGrain, [&](std::size_t p) {
         particles.enthalpy[p] += heat * (isDamped ? network.dissipation[p] / sums[0] : particles.mass[p] / sums[1]);
     });
-    state.damped += heat;
 }
 
 /// The materials that the particles have at their enthalpies.
@@ -150,7 +160,7 @@ bool exchangeHeatDue(Simulation& simulation) {
     inParallel(particles.count(), kParticleGrain,
                [&](std::size_t p) { scratch.temperature[p] = temperatureOf(materials, particles, p); });
     findNetwork(pairs, particles, simulation.setup.obstacles, heat, scratch.temperature, simulation.time, network);
-    bookLostEnergy(simulation, network);
+    bookLostEnergy(simulation, pairs, network);
     const ShareNumbers share = [&](const std::vector<double>& own, std::vector<double>& combined) {
         evaluator.shareNumbers(own, combined);
     };

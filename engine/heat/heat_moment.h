@@ -1,7 +1,7 @@
 // The moments at which a run exchanges heat. Between them particles move at the constants that they have; at each of
 // them, in this order,
-// - what their damping, friction and rebounds have taken from the energy of motion becomes heat of those that lose it
-//   at that moment, in proportion;
+// - what damping, friction and rebounds have taken from the energy of motion becomes heat of those that are damped at
+//   that moment, in proportion, as soon as it is enough to be noticed;
 // - heat flows for the time since the moment before (heat/heat_exchange.h);
 // - particles that melt or set get the constants of their new stage. What that changes of their energy at the places
 //   where they are is paid by their heat, so that the sum of all energies stays.

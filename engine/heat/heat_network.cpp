@@ -65,9 +65,9 @@ class Finder {
         for (std::size_t p = 0; p < particles_.count(); ++p) network_.begin[p + 1] += network_.begin[p];
         network_.other.resize(network_.begin.back());
         network_.conductance.resize(network_.begin.back());
-        for (auto* array :
-             {&network_.conductanceToOthers, &network_.conductanceOutside, &network_.inflow, &network_.dissipation})
+        for (auto* array : {&network_.conductanceToOthers, &network_.conductanceOutside, &network_.inflow})
             array->assign(particles_.count(), 0.0);
+        network_.dissipation.clear();
     }
 
     /// @param addOutside  addOutside(p, cover) adds what particle p exchanges with obstacles and air
@@ -89,12 +89,20 @@ class Finder {
                 cover.side += weight / (std::sqrt(ratioSq) * rest) * separation;
             });
             network_.conductanceToOthers[p] = sum;
+            addOutside(p, cover);
+        });
+    }
+
+    void findDissipation() {
+        network_.dissipation.assign(particles_.count(), 0.0);
+        forEachOwn([&](std::size_t laneSlot, std::uint32_t p) {
+            const PackedParticle& own = packedAt(laneSlot);
+            double power = 0.0;
             pairs_.forEachNeighbor(laneSlot, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
                 const PackedParticle& neighbor = pairs_.packed[other];
-                network_.dissipation[p] +=
-                    halfDissipation(own, neighbor, separation, distanceSq, pairs_.constants(own, neighbor));
+                power += halfDissipation(own, neighbor, separation, distanceSq, pairs_.constants(own, neighbor));
             });
-            addOutside(p, cover);
+            network_.dissipation[p] = power;
         });
     }
 
@@ -192,6 +200,10 @@ void findNetwork(const PairTraversal& pairs, const Particles& particles, const O
         network.conductanceOutside[p] += conductance;
         network.inflow[p] += conductance * heat.air.temperature;
     });
+}
+
+void findDissipation(const PairTraversal& pairs, const Particles& particles, HeatNetwork& network) {
+    Finder(pairs, particles, network).findDissipation();
 }
 
 }  // namespace engine

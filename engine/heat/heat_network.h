@@ -36,7 +36,8 @@ struct HeatNetwork {
     std::vector<double> conductanceToOthers;  ///< sum over the ways of a particle, W/K
     std::vector<double> conductanceOutside;   ///< to obstacles and air, W/K
     std::vector<double> inflow;               ///< conductances outside times the temperatures there, W
-    std::vector<double> dissipation;          ///< heat that damping and friction make at this moment, W
+    /// Heat that damping and friction make at this moment, W; empty where it is not asked for.
+    std::vector<double> dissipation;
 
     std::size_t count() const { return conductanceOutside.size(); }
 };
@@ -65,5 +66,8 @@ double freeArea(double radius, const Cover& cover);
 /// @param time         at which the obstacles are where they are, s
 void findNetwork(const PairTraversal& pairs, const Particles& particles, const Obstacles& obstacles,
                  const HeatSetup& heat, const std::vector<double>& temperature, double time, HeatNetwork& network);
+
+/// Finds what damping and friction make of heat, for the same particles.
+void findDissipation(const PairTraversal& pairs, const Particles& particles, HeatNetwork& network);
 
 }  // namespace engine

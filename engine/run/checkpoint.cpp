@@ -169,7 +169,7 @@ void exchangeCommon(Archive& archive, State& simulation) {
     exchangeStatistics(archive, simulation.steps);
     archive(simulation.wallDepths.deepest, simulation.wallDepths.centersOutside);
     auto& heat = simulation.heat;
-    archive(heat.exchangeCount, heat.owed, heat.received, heat.damped, heat.ofMelting);
+    archive(heat.exchangeCount, heat.pending, heat.received, heat.damped, heat.ofMelting);
     for (auto& load : simulation.loads) {
         for (int axis = 0; axis < 3; ++axis) archive(load.impulse[axis], load.angularImpulse[axis]);
         archive(load.work);

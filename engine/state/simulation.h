@@ -117,9 +117,9 @@ struct ObstacleLoad {
 /// What a run has booked of heat. Nothing in a run without heat.
 struct HeatState {
     std::uint64_t exchangeCount = 0;  ///< number of exchanges so far
-    /// Heat that steps owe the particles, J, below zero: where rounding has made them gain energy, the next heat of
-    /// damping pays for it.
-    double owed = 0.0;
+    /// Energy of motion that has become heat but is not given to the particles yet, J; below zero where steps have
+    /// gained energy.
+    double pending = 0.0;
     double received = 0.0;   ///< from obstacles and air since the start, J
     double damped = 0.0;     ///< kinetic and potential energy that became heat, J
     double ofMelting = 0.0;  ///< kinetic and potential energy that changing constants took from heat, J

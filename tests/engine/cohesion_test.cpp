@@ -1,7 +1,8 @@
 // Surface tension: the pull of two particles against its closed form, the lattice that keeps its density, kernels
 // against the reference, and what is conserved.
+#include "tests/catch.h"
+
 #include <array>
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "engine/force_law/cohesion.h"
@@ -9,8 +10,15 @@
 #include "engine/force_law/pair_law.h"
 #include "engine/forces/forces.h"
 #include "engine/obstacles/contact.h"
+#include "engine/run/advance.h"
+#include "engine/run/checkpoint.h"
+#include "engine/run/diagnostics.h"
+#include "engine/run/redistribution.h"
 #include "tests/engine/clouds.h"
+#include "tests/engine/on_instruction_set.h"
 #include "tests/engine/rounding.h"
+#include "tests/engine/runs.h"
+#include "tests/engine/thread_ranks.h"
 
 using namespace engine;
 
@@ -203,4 +211,86 @@ TEST_CASE("the pull of a wetted surface is the derivative of its energy", "[cohe
     for (int layer = 0; layer < 3; ++layer)
         work -= contactAt((1.0 + 2.0 * layer * std::sqrt(2.0 / 3.0)) * radius).energy;
     CHECK(work / (2.0 * std::sqrt(3.0) * radius * radius) == Approx(15.0).epsilon(1e-3));  // 0.652 has three digits
+}
+
+namespace {
+
+/// A ball of oil that falls onto a plane that it wets, and another liquid, without cohesion, beside it.
+Setup dropOnPlane(StepperKind stepper, Precision precision) {
+    Setup setup;
+    setup.materials = {cohesive("oil", 10.0), *materialPreset("oil")};
+    setup.stepper = stepper;
+    setup.precision = precision;
+    setup.step = 0.002;
+    setup.obstacles.wall = WallLaw::scaled;
+    setup.obstacles.gravity = 9.8;
+    setup.obstacles.shapes = {Plane{}};
+    setup.obstacles.surfaces.resize(1);
+    setup.obstacles.surfaces[0].wetting = 1.5;
+    const Material& oil = setup.materials[0];
+    for (const Vec3& position : ballPositions(Vec3(0, 1.0, 0), 0.8, {.spacing = 2.0 * oil.radius, .jitter = 0.05}))
+        append(
+            setup.initial,
+            {.position = position, .radius = oil.radius, .mass = oil.mass, .material = position.x() > 0.4 ? 1U : 0U});
+    return setup;
+}
+
+std::string hashAfter(Simulation simulation, int from, int to) {
+    runs::advanceFrames(simulation, from, to);
+    return stateHash(simulation.particles);
+}
+
+}  // namespace
+
+TEST_CASE("a run with cohesion has the same bits on any instruction set, ranks and after a resume", "[cohesion]") {
+    constexpr int kFrames = 12;
+    for (const StepperKind stepper : {StepperKind::leapfrog, StepperKind::linearlyImplicit, StepperKind::automatic})
+        for (const Precision precision : {Precision::doubles, Precision::singles}) {
+            INFO(nameOf(stepper) << ", precision " << static_cast<int>(precision));
+            const Setup setup = dropOnPlane(stepper, precision);
+            const std::string expected = hashAfter(start(setup), 0, kFrames);
+            for (const std::string& name : instructionSets()) {
+                const OnInstructionSet on(name);
+                INFO(name);
+                CHECK(hashAfter(start(setup), 0, kFrames) == expected);
+            }
+            Simulation half = start(setup);
+            runs::advanceFrames(half, 0, kFrames / 2);
+            CHECK(hashAfter(decodeCheckpoint(setup, encodeCheckpoint(half)), kFrames / 2, kFrames) == expected);
+            std::string onRanks;
+            thread_ranks::onRanks(3, thread_ranks::slabs(3, 0.3), [&](const Ranks& ranks) {
+                Simulation part = start(setup, ranks);
+                runs::advanceFrames(part, 0, kFrames / 2);
+                redistribute(part);
+                runs::advanceFrames(part, kFrames / 2, kFrames);
+                Simulation whole = start(setup);
+                gather(part, whole);
+                if (ranks.own() == 0) onRanks = stateHash(whole.particles);
+            });
+            CHECK(onRanks == expected);
+        }
+}
+
+TEST_CASE("without damping, a drop with cohesion keeps its energy", "[cohesion]") {
+    Setup setup = dropOnPlane(StepperKind::velocityVerlet, Precision::doubles);
+    setup.gravity = Vec3::Zero();
+    setup.obstacles = {};
+    for (Material& material : setup.materials) material.damping = 0.0;
+    for (std::size_t p = 0; p < setup.initial.count(); ++p)
+        setup.initial.velocity[p] = 0.3 * clouds::randomVector(5, p);
+    const auto largestDrift = [&](double step) {
+        setup.step = step;
+        Simulation simulation = start(setup);
+        const double before = energy(simulation).total();
+        double largest = 0.0;
+        for (int frame = 1; frame <= 60; ++frame) {
+            advance(simulation, frame * runs::kFrame);
+            largest = std::max(largest, std::abs(energy(simulation).total() - before));
+        }
+        CHECK(simulation.steps.rejected == 0);
+        return largest / energy(simulation).kinetic;
+    };
+    const double coarse = largestDrift(0.002);
+    CHECK(coarse < 0.01);
+    CHECK(largestDrift(0.001) < 0.4 * coarse);  // of second order
 }

@@ -160,7 +160,9 @@ TEST_CASE("Kinetic, potential and thermal energy together are constant in a clos
         CHECK(lost > 1.0);
         CHECK(simulation.heat.damped == Approx(lost + simulation.heat.ofMelting).epsilon(1e-9));
         // Of the energy that became heat, a hundred-millionth may be lost by rounding the far larger heat.
-        CHECK(std::abs(energy(simulation).total() + heatOf(simulation) - before) < 1e-8 * lost);
+        const double after = energy(simulation).total() + heatOf(simulation) + simulation.heat.pending;
+        CHECK(std::abs(after - before) < 1e-8 * lost);
+        CHECK(simulation.heat.pending < 0.1 * lost);
     }
 }
 
@@ -177,7 +179,9 @@ TEST_CASE("The heat of damping stays with those that are damped", "[heat]") {
     CHECK(enthalpy[0] > cold);
     CHECK(enthalpy[0] == Approx(enthalpy[1]).epsilon(1e-14));
     CHECK(enthalpy[2] == cold);
-    CHECK(enthalpy[0] + enthalpy[1] - 2.0 * cold == Approx(simulation.heat.damped).epsilon(1e-6));
+    const double given = simulation.heat.damped - simulation.heat.pending;
+    CHECK(given > 0.5 * simulation.heat.damped);
+    CHECK(enthalpy[0] + enthalpy[1] - 2.0 * cold == Approx(given).epsilon(1e-6));
 }
 
 TEST_CASE("A run with heat has the same bits on any threads, ranks and after a resume", "[heat]") {

@@ -56,17 +56,17 @@ TEST_CASE("the keys of heat become the heat of a run") {
 TEST_CASE("a material melts in stages to the constants of another, at its own radius") {
     const scenes::Scene scene = sceneOf(kMelting);
     const std::vector<engine::Material>& materials = scene.setup.materials;
-    REQUIRE(materials.size() == 18);
+    REQUIRE(materials.size() == 19);  // the two, the melt at that radius, and sixteen stages
     REQUIRE(scene.setup.heat->melts.size() == 1);
-    CHECK(scene.setup.heat->melts[0].first == 2);
+    CHECK(scene.setup.heat->melts[0].first == 3);
     const engine::Material melt = engine::withRadius(*engine::materialPreset("liquid"), 0.1);
     CHECK(materials.back().repulsion == melt.repulsion);
     CHECK(materials.back().damping == melt.damping);
     CHECK(materials.back().mass == materials[0].mass);
     CHECK(materials.back().name == "wax, 100 % melted");
-    CHECK(scene.materialColors.at(9) == engine::Vec3(1.0, 0.5, 0.5));  // the eighth of sixteen
+    CHECK(scene.materialColors.at(10) == engine::Vec3(1.0, 0.5, 0.5));  // the eighth of sixteen
     // Half of the particle of 335 K has melted.
-    CHECK(scene.setup.initial.material == std::vector<std::uint32_t>{0, 0, 9});
+    CHECK(scene.setup.initial.material == std::vector<std::uint32_t>{0, 0, 10});
 }
 
 TEST_CASE("many materials that melt do so in fewer stages, which fit the table of pairs") {
