@@ -53,12 +53,12 @@ struct LatticeSums {
 LatticeSums sumsOf(const Material& material) {
     const PairConstants<double> law = pairConstants<double>(material, 1.0);
     LatticeSums sums;
-    sums.virial = sumOverShells(1.0, law.cutoffSq, [&](double distanceSq) {
-        return distanceSq * pairCoefficient<kConservative>(distanceSq, 0.0, law);
+    sums.virial = sumOverShells(1.0, law.cutoffSq, [&](double count, double distanceSq) {
+        return count * distanceSq * pairCoefficient<kConservative>(distanceSq, 0.0, law);
     });
-    const double energies = sumOverShells(1.0, law.cutoffSq, [&](double distanceSq) {
+    const double energies = sumOverShells(1.0, law.cutoffSq, [&](double count, double distanceSq) {
         const double distance = std::sqrt(distanceSq);
-        return distance * pairEnergy(distance, law);
+        return count * distance * pairEnergy(distance, law);
     });
     sums.tension = -energies / (8.0 * cellVolume(1.0));
     return sums;

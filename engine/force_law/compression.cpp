@@ -57,8 +57,8 @@ PairConstants<double> reducedLaw(Material material) {
 /// @param spacing  in rest lengths
 double reducedPressure(const PairConstants<double>& law, double spacing) {
     const double reachSq = law.pull > 0.0 ? std::max(law.reachSq, law.pullReachSq) : law.reachSq;
-    const double sum = sumOverShells(spacing, reachSq, [&](double distanceSq) {
-        return distanceSq * pairCoefficient<kConservative>(distanceSq, 0.0, law);
+    const double sum = sumOverShells(spacing, reachSq, [&](double count, double distanceSq) {
+        return count * distanceSq * pairCoefficient<kConservative>(distanceSq, 0.0, law);
     });
     return sum / (6.0 * cellVolume(spacing));
 }

@@ -21,14 +21,15 @@ inline double cellVolume(double spacing) {
     return spacing * spacing * spacing / std::sqrt(2.0);
 }
 
-/// Sum of term(squared distance) over the neighbors of a particle that are nearer than a reach, shell by shell.
+/// Sum over the neighbors of a particle that are nearer than a reach, shell by shell.
+/// @param term  term(number of neighbors, squared distance) returns the sum over a shell
 template <class Term>
 double sumOverShells(double spacing, double reachSq, const Term& term) {
     double sum = 0.0;
     for (std::size_t n = 1; n <= kShellCount; ++n) {
         const double distanceSq = spacing * spacing * static_cast<double>(n);
         if (distanceSq >= reachSq) break;
-        sum += shellSizes()[n] * term(distanceSq);
+        sum += term(shellSizes()[n], distanceSq);
     }
     return sum;
 }
