@@ -21,11 +21,10 @@
 //   radius. It is a stress times the area of a particle in a layer of closest packing. It is not part of f, so that f
 //   balances it in an adhering particle at rest, and friction holds the particle.
 // - Wetting. To part a liquid of the surface tension sigma from a surface takes the work sigma (1 + cos theta) on a
-// unit
-//   of area, with the contact angle theta (Young and Dupre). The surface pulls on particles of such a liquid like
-//   adhesion, but fades over L = 4 radii, so that it acts on the first three layers of closest packing. They are 2
-//   sqrt(2/3) r apart, the first a radius above the surface, and have the energies -w_k L times the stress on a unit of
-//   area. The sum of w_k is 0.652 (kWettedLayers), so that the stress is sigma (1 + cos theta) / (0.652 L).
+//   unit of area, with the contact angle theta (Young and Dupre). The surface pulls on particles of such a liquid like
+//   adhesion, but fades over L = 4 radii, so that it acts on the first three layers of closest packing. They are
+//   2 sqrt(2/3) r apart, the first a radius above the surface, and have the energies -w_k L times the stress on a unit
+//   of area. The sum of w_k is 0.652 (kWettedLayers), so that the stress is sigma (1 + cos theta) / (0.652 L).
 // The steppers stop centers of particles at the surface; see obstacles/barriers.h.
 #pragma once
 

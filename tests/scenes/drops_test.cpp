@@ -1,5 +1,5 @@
 // Simulations of surface tension: a cube becomes a ball, the tension of drops is the one that the scene asks for, a
-// thread breaks into drops, and what wets a plate hangs from it.
+// long bridge breaks, and what wets a plate hangs from it.
 #include "tests/catch.h"
 #include "tests/scenes/scene_text.h"
 
