@@ -53,8 +53,8 @@ class HeatBodies {
 /// @param combined  temperatures in combined order, K
 double flowInto(const HeatNetwork& network, std::size_t p, double own, const std::vector<double>& combined) {
     double flow = network.inflow[p] - network.conductanceOutside[p] * own;
-    for (std::size_t way = network.begin[p]; way < network.begin[p + 1]; ++way)
-        flow += network.conductance[way] * (combined[network.other[way]] - own);
+    for (std::size_t link = network.begin[p]; link < network.begin[p + 1]; ++link)
+        flow += network.conductance[link] * (combined[network.other[link]] - own);
     return flow;
 }
 
@@ -158,8 +158,8 @@ class Exchange {
                 product[p] = 0.0;
                 if (capacity[p] == 0.0) return;
                 double sum = diagonal[p] * x[p];
-                for (std::size_t way = network_.begin[p]; way < network_.begin[p + 1]; ++way)
-                    sum -= seconds * network_.conductance[way] * scratch_.combined[network_.other[way]];
+                for (std::size_t link = network_.begin[p]; link < network_.begin[p + 1]; ++link)
+                    sum -= seconds * network_.conductance[link] * scratch_.combined[network_.other[link]];
                 product[p] = sum;
             });
         };

@@ -1,4 +1,4 @@
-// Moves heat along the ways of a network for a time, each way in both directions, so that the sum of all heat changes
+// Moves heat along the links of a network for a time, each link in both directions, so that the sum of all heat changes
 // by what obstacles and air give alone.
 #pragma once
 

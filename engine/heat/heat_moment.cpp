@@ -16,6 +16,10 @@
 namespace engine {
 namespace {
 
+/// Heat of damping is given to the particles as soon as it warms all of them by this much in the mean, K. Chosen: no
+/// scene shows it, and most exchanges need not find out who is damped.
+constexpr double kLeastWarming = 1e-4;
+
 /// Energy that has become heat since the last exchange, J; 0 where steps are not audited, so that none is known.
 double lostEnergy(const Simulation& simulation) {
     const StepCache& cache = *simulation.cache;
@@ -23,12 +27,8 @@ double lostEnergy(const Simulation& simulation) {
     return cache.energyAtHeat - (*cache.energy - cache.workAtEnergy);
 }
 
-/// Heat of damping is given to the particles as soon as it warms all of them by this much in the mean, K. Chosen: no
-/// scene shows it, and most exchanges need not find out who is damped.
-constexpr double kLeastWarming = 1e-4;
-
 /// Books the heat that motion has lost, and gives it to the particles once it is worth it.
-void bookLostEnergy(Simulation& simulation, const PairTraversal& pairs, HeatNetwork& network) {
+void bookLostEnergy(Simulation& simulation, const PairTraversal& pairs) {
     HeatState& state = simulation.heat;
     const double lost = lostEnergy(simulation);
     state.damped += lost;
@@ -38,15 +38,15 @@ void bookLostEnergy(Simulation& simulation, const PairTraversal& pairs, HeatNetw
         return particles.mass[p] * simulation.setup.materials[particles.material[p]].thermal.capacity;
     });
     if (!(state.pending > kLeastWarming * capacity)) return;
-    findDissipation(pairs, particles, network);
+    const std::vector<double> dissipation = dissipationOf(pairs, particles);
     const std::array<double, 2> sums = exactSums<2>(*simulation.ranks, particles.count(), [&](std::size_t p) {
-        return std::array{network.dissipation[p], particles.mass[p]};
+        return std::array{dissipation[p], particles.mass[p]};
     });
     // Where nothing is damped at this moment, all have a share.
     const bool isDamped = sums[0] > 0.0;
     const double heat = std::exchange(state.pending, 0.0);
     inParallel(particles.count(), kParticleGrain, [&](std::size_t p) {
-        particles.enthalpy[p] += heat * (isDamped ? network.dissipation[p] / sums[0] : particles.mass[p] / sums[1]);
+        particles.enthalpy[p] += heat * (isDamped ? dissipation[p] / sums[0] : particles.mass[p] / sums[1]);
     });
 }
 
@@ -160,7 +160,7 @@ bool exchangeHeatDue(Simulation& simulation) {
     inParallel(particles.count(), kParticleGrain,
                [&](std::size_t p) { scratch.temperature[p] = temperatureOf(materials, particles, p); });
     findNetwork(pairs, particles, simulation.setup.obstacles, heat, scratch.temperature, simulation.time, network);
-    bookLostEnergy(simulation, pairs, network);
+    bookLostEnergy(simulation, pairs);
     const ShareNumbers share = [&](const std::vector<double>& own, std::vector<double>& combined) {
         evaluator.shareNumbers(own, combined);
     };

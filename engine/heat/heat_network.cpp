@@ -1,4 +1,4 @@
-// Visits the neighbors of every particle twice: to count its ways, and to fill them in.
+// Visits the neighbors of every particle twice: to count its links, and to fill them in.
 #include "engine/heat/heat_network.h"
 
 #include <algorithm>
@@ -55,7 +55,7 @@ class Finder {
     Finder(const PairTraversal& pairs, const Particles& particles, HeatNetwork& network)
         : pairs_(pairs), particles_(particles), network_(network) {}
 
-    void countWays() {
+    void countLinks() {
         network_.begin.assign(particles_.count() + 1, 0);
         forEachOwn([&](std::size_t laneSlot, std::uint32_t p) {
             std::size_t count = 0;
@@ -67,42 +67,28 @@ class Finder {
         network_.conductance.resize(network_.begin.back());
         for (auto* array : {&network_.conductanceToOthers, &network_.conductanceOutside, &network_.inflow})
             array->assign(particles_.count(), 0.0);
-        network_.dissipation.clear();
     }
 
     /// @param addOutside  addOutside(p, cover) adds what particle p exchanges with obstacles and air
     template <class AddOutside>
-    void fillWays(const AddOutside& addOutside) {
+    void fillLinks(const AddOutside& addOutside) {
         forEachOwn([&](std::size_t laneSlot, std::uint32_t p) {
             Cover cover;
-            std::size_t way = network_.begin[p];
+            std::size_t link = network_.begin[p];
             const PackedParticle& own = packedAt(laneSlot);
             double sum = 0.0;
             forEachConducting(laneSlot, [&](std::uint32_t other, const Vec3& separation, double ratioSq, double rest) {
                 const PackedParticle& neighbor = pairs_.packed[other];
                 const double conductivity = harmonicMean(thermalOf(own).conductivity, thermalOf(neighbor).conductivity);
-                network_.other[way] = pairs_.list.order[other];
-                network_.conductance[way] = conductivity * rest * conductanceOverRest(ratioSq);
-                sum += network_.conductance[way++];
+                network_.other[link] = pairs_.list.order[other];
+                network_.conductance[link] = conductivity * rest * conductanceOverRest(ratioSq);
+                sum += network_.conductance[link++];
                 const double weight = weightAt(ratioSq) / kAllWeights;
                 cover.weight += weight;
                 cover.side += weight / (std::sqrt(ratioSq) * rest) * separation;
             });
             network_.conductanceToOthers[p] = sum;
             addOutside(p, cover);
-        });
-    }
-
-    void findDissipation() {
-        network_.dissipation.assign(particles_.count(), 0.0);
-        forEachOwn([&](std::size_t laneSlot, std::uint32_t p) {
-            const PackedParticle& own = packedAt(laneSlot);
-            double power = 0.0;
-            pairs_.forEachNeighbor(laneSlot, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
-                const PackedParticle& neighbor = pairs_.packed[other];
-                power += halfDissipation(own, neighbor, separation, distanceSq, pairs_.constants(own, neighbor));
-            });
-            network_.dissipation[p] = power;
         });
     }
 
@@ -144,6 +130,12 @@ double exchangeWithAir(const Air& air, double temperature) {
     return air.exchange + air.emissivity * kStefanBoltzmann * squares * (air.temperature + temperature);
 }
 
+/// Share of the full contact between a particle of this radius (m) and a surface at this distance (m) from its center.
+double contactShare(double radius, double height) {
+    const double ratio = std::max(0.0, height) / radius;
+    return std::min(1.0, weightAt(ratio * ratio) / kTouchingWeight);
+}
+
 /// Adds what one particle exchanges with the obstacles, which are part of its cover.
 void addWalls(const Obstacles& obstacles, const HeatSetup& heat, const Thermal& thermal, const Probe& probe,
               std::size_t p, Cover& cover, HeatNetwork& network) {
@@ -151,8 +143,8 @@ void addWalls(const Obstacles& obstacles, const HeatSetup& heat, const Thermal& 
     forEachSurface(obstacles, probe.position, probe.time, reach, [&](const Surface& surface) {
         if (surface.height >= reach) return;
         // A wall is in the place of three neighbors of either distance in a layer of closest packing.
-        const double weight = weightAt(std::max(0.0, surface.height * surface.height) / (probe.radius * probe.radius)) /
-                              kTouchingWeight * (3.0 * kTouchingWeight + 3.0 * kNextWeight) / kAllWeights;
+        const double weight =
+            contactShare(probe.radius, surface.height) * (3.0 * kTouchingWeight + 3.0 * kNextWeight) / kAllWeights;
         cover.weight += weight;
         cover.side += weight * (std::numbers::sqrt2 / std::numbers::sqrt3) * surface.normal;
         if (surface.obstacle >= heat.obstacles.size() || !heat.obstacles[surface.obstacle]) return;
@@ -169,9 +161,7 @@ double conductanceAt(double distanceRatio) {
 }
 
 double conductanceToWall(double conductivity, double radius, double height) {
-    const double ratio = std::max(0.0, height) / radius;
-    const double contact = std::min(1.0, weightAt(ratio * ratio) / kTouchingWeight);
-    return 2.0 * std::numbers::sqrt3 * conductivity * radius * contact;
+    return 2.0 * std::numbers::sqrt3 * conductivity * radius * contactShare(radius, height);
 }
 
 double freeArea(double radius, const Cover& cover) {
@@ -189,8 +179,8 @@ double freeArea(double radius, const Cover& cover) {
 void findNetwork(const PairTraversal& pairs, const Particles& particles, const Obstacles& obstacles,
                  const HeatSetup& heat, const std::vector<double>& temperature, double time, HeatNetwork& network) {
     Finder finder(pairs, particles, network);
-    finder.countWays();
-    finder.fillWays([&](std::uint32_t p, Cover& cover) {
+    finder.countLinks();
+    finder.fillLinks([&](std::uint32_t p, Cover& cover) {
         const Thermal& thermal = pairs.materials[particles.material[p]].thermal;
         const Probe probe = probeOf(pairs.materials, particles, p, particles.velocity[p], time);
         if (!obstacles.shapes.empty()) addWalls(obstacles, heat, thermal, probe, p, cover, network);
@@ -202,8 +192,18 @@ void findNetwork(const PairTraversal& pairs, const Particles& particles, const O
     });
 }
 
-void findDissipation(const PairTraversal& pairs, const Particles& particles, HeatNetwork& network) {
-    Finder(pairs, particles, network).findDissipation();
+std::vector<double> dissipationOf(const PairTraversal& pairs, const Particles& particles) {
+    std::vector<double> powers(particles.count(), 0.0);
+    pairs.forEachParticle([&](std::size_t laneSlot) {
+        const std::uint32_t p = pairs.order()[pairs.sortedIndexAt(laneSlot)];
+        if (p == kGhost) return;
+        const PackedParticle& own = pairs.packed[pairs.sortedIndexAt(laneSlot)];
+        pairs.forEachNeighbor(laneSlot, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
+            const PackedParticle& neighbor = pairs.packed[other];
+            powers[p] += halfDissipation(own, neighbor, separation, distanceSq, pairs.constants(own, neighbor));
+        });
+    });
+    return powers;
 }
 
 }  // namespace engine

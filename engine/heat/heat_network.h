@@ -1,12 +1,11 @@
-// The ways that heat can take at a moment: conductances between neighboring particles, to obstacles and to the air.
+// The links that heat can take at a moment: conductances between neighboring particles, to obstacles and to the air.
 // Found from where the particles are; heat_exchange.h then moves heat along them.
 //
 // Conduction, as in smoothed particle hydrodynamics (Cleary and Monaghan 1999). Heat flows from particle i to particle
 // p at the rate k_pi (T_i - T_p), with
 //   k_pi = kappa D0 max(0, 1 - D^2/(1.5 D0)^2),
 // which is the same for both, so that none is lost. kappa is the harmonic mean of those of the two materials, as in two
-// slabs in a row. In a lattice with distances x_j along an axis and a volume V a particle this conducts like a body
-// with
+// slabs in a row. A lattice with distances x_j along an axis and a volume V a particle conducts like a body of
 //   k = sum_j k_j x_j^2 / (2 V),
 // and kappa is such that the closest packing of particles that touch has the conductivity of the material.
 //
@@ -30,16 +29,12 @@ namespace engine {
 inline constexpr double kStefanBoltzmann = 5.670374419e-8;
 
 struct HeatNetwork {
-    std::vector<std::size_t> begin;           ///< where the ways of each own particle begin; one more than particles
-    std::vector<std::uint32_t> other;         ///< combined index of the particle at the other end of each way
-    std::vector<double> conductance;          ///< of each way, W/K
-    std::vector<double> conductanceToOthers;  ///< sum over the ways of a particle, W/K
+    std::vector<std::size_t> begin;           ///< where the links of each own particle begin; one more than particles
+    std::vector<std::uint32_t> other;         ///< combined index of the particle at the other end of each link
+    std::vector<double> conductance;          ///< of each link, W/K
+    std::vector<double> conductanceToOthers;  ///< sum over the links of a particle, W/K
     std::vector<double> conductanceOutside;   ///< to obstacles and air, W/K
     std::vector<double> inflow;               ///< conductances outside times the temperatures there, W
-    /// Heat that damping and friction make at this moment, W; empty where it is not asked for.
-    std::vector<double> dissipation;
-
-    std::size_t count() const { return conductanceOutside.size(); }
 };
 
 /// Conductance of a particle and others like it over the conductivity (W/(m K)) and the rest length, at a distance of
@@ -61,13 +56,13 @@ struct Cover {
 /// has the rest of its own surface, too. Inside, where neighbors are on all sides, it is 0 at any density.
 double freeArea(double radius, const Cover& cover);
 
-/// Finds the ways of heat for the particles that `pairs` was prepared and packed for.
+/// Finds the links of heat for the particles that `pairs` was prepared and packed for.
 /// @param temperature  of each own particle, K; radiation follows from it
 /// @param time         at which the obstacles are where they are, s
 void findNetwork(const PairTraversal& pairs, const Particles& particles, const Obstacles& obstacles,
                  const HeatSetup& heat, const std::vector<double>& temperature, double time, HeatNetwork& network);
 
-/// Finds what damping and friction make of heat, for the same particles.
-void findDissipation(const PairTraversal& pairs, const Particles& particles, HeatNetwork& network);
+/// Heat that damping and friction make of each own particle's motion at this moment, W: half of that of its pairs.
+std::vector<double> dissipationOf(const PairTraversal& pairs, const Particles& particles);
 
 }  // namespace engine

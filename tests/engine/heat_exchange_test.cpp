@@ -1,4 +1,4 @@
-// Heat along given ways, against closed forms; and the ways between particles, to walls and to the air.
+// Heat along given links, against closed forms; and the links between particles, to walls and to the air.
 #include "tests/catch.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ using namespace engine;
 
 namespace {
 
-/// Particles of 1 kg of a material, with ways between them that the test lays.
+/// Particles of 1 kg of a material, with links between them that the test gives.
 struct Bodies {
     std::vector<Material> materials;
     Particles particles;
@@ -28,13 +28,13 @@ struct Bodies {
         append(particles, {.mass = 1.0, .enthalpy = enthalpyAt(materials[0].thermal, temperature)});
     }
 
-    /// Lays ways: waysOf(p) returns pairs of another particle and a conductance (W/K).
-    template <class WaysOf>
-    void connect(const WaysOf& waysOf) {
+    /// Adds links: linksOf(p) returns pairs of another particle and a conductance (W/K).
+    template <class LinksOf>
+    void connect(const LinksOf& linksOf) {
         network.begin = {0};
         for (std::size_t p = 0; p < particles.count(); ++p) {
             network.conductanceToOthers.push_back(0.0);
-            for (const auto& [other, conductance] : waysOf(p)) {
+            for (const auto& [other, conductance] : linksOf(p)) {
                 network.other.push_back(static_cast<std::uint32_t>(other));
                 network.conductance.push_back(conductance);
                 network.conductanceToOthers.back() += conductance;
@@ -59,18 +59,18 @@ struct Bodies {
     double heat() const { return std::accumulate(particles.enthalpy.begin(), particles.enthalpy.end(), 0.0); }
 };
 
-using Ways = std::vector<std::pair<std::size_t, double>>;
+using Links = std::vector<std::pair<std::size_t, double>>;
 
 /// The two neighbors of a particle in a ring or a chain.
-Ways neighborsInRing(std::size_t p, std::size_t count, double conductance) {
+Links neighborsInRing(std::size_t p, std::size_t count, double conductance) {
     return {{(p + 1) % count, conductance}, {(p + count - 1) % count, conductance}};
 }
 
-Ways neighborsInChain(std::size_t p, std::size_t count, double conductance) {
-    Ways ways;
-    if (p > 0) ways.emplace_back(p - 1, conductance);
-    if (p + 1 < count) ways.emplace_back(p + 1, conductance);
-    return ways;
+Links neighborsInChain(std::size_t p, std::size_t count, double conductance) {
+    Links links;
+    if (p > 0) links.emplace_back(p - 1, conductance);
+    if (p + 1 < count) links.emplace_back(p + 1, conductance);
+    return links;
 }
 
 constexpr Thermal kPlain{.capacity = 1000.0, .conductivity = 5.0};
@@ -161,7 +161,7 @@ TEST_CASE("The temperatures of two particles come together exponentially", "[hea
         Bodies pair(kPlain);
         pair.add(400.0);
         pair.add(300.0);
-        pair.connect([](std::size_t p) { return Ways{{1 - p, 4.0}}; });
+        pair.connect([](std::size_t p) { return Links{{1 - p, 4.0}}; });
         const double heat = pair.heat();
         for (int k = 0; k < steps; ++k) CHECK(pair.exchange(seconds / steps) == 0.0);
         CHECK(pair.heat() == Approx(heat).epsilon(1e-15));
@@ -170,7 +170,7 @@ TEST_CASE("The temperatures of two particles come together exponentially", "[hea
     const double exact = 100.0 * std::exp(-0.008 * 100.0);
     const double coarse = differenceAfter(100.0, 50) - exact;
     const double fine = differenceAfter(100.0, 100) - exact;
-    CHECK(std::abs(fine) < 0.0034 * exact);  // half of 0.8 times 0.008, the rate times a step
+    CHECK(std::abs(fine) < 0.0034 * exact);             // half of 0.8 times 0.008, the rate times a step
     CHECK(coarse / fine == Approx(2.0).epsilon(0.05));  // of first order
 }
 
@@ -241,16 +241,16 @@ TEST_CASE("No temperature leaves the range of all, and none of the heat is lost"
             };
             constexpr std::size_t kCount = 60;
             for (std::size_t p = 0; p < kCount; ++p) bodies.add(300.0 + 100.0 * draw());
-            std::vector<Ways> ways(kCount);
+            std::vector<Links> links(kCount);
             for (std::size_t p = 0; p < kCount; ++p)
                 for (int k = 0; k < 4; ++k) {
                     const auto other = static_cast<std::size_t>(draw() * kCount);
                     if (other == p) continue;
                     const double conductance = std::pow(10.0, 4.0 * draw() - 2.0);
-                    ways[p].emplace_back(other, conductance);
-                    ways[other].emplace_back(p, conductance);
+                    links[p].emplace_back(other, conductance);
+                    links[other].emplace_back(p, conductance);
                 }
-            bodies.connect([&](std::size_t p) { return ways[p]; });
+            bodies.connect([&](std::size_t p) { return links[p]; });
             bodies.connectToOutside(3, 20.0, 280.0);
             bodies.connectToOutside(7, 20.0, 420.0);
             const double before = bodies.heat();
@@ -274,15 +274,15 @@ TEST_CASE("Closest packing conducts as the material does, along every axis", "[h
     CHECK(network.begin[p + 1] - network.begin[p] == 18);
     for (int axis = 0; axis < 3; ++axis) {
         double sum = 0.0;
-        for (std::size_t way = network.begin[p]; way < network.begin[p + 1]; ++way) {
-            const double along = particles.position[network.other[way]][axis] - particles.position[p][axis];
-            sum += network.conductance[way] * along * along;
+        for (std::size_t link = network.begin[p]; link < network.begin[p + 1]; ++link) {
+            const double along = particles.position[network.other[link]][axis] - particles.position[p][axis];
+            sum += network.conductance[link] * along * along;
         }
         CHECK(sum / (2.0 * volume) == Approx(kPlain.conductivity).epsilon(1e-9));
     }
 }
 
-TEST_CASE("Ways conduct the same in both directions, between materials by the harmonic mean", "[heat]") {
+TEST_CASE("Links conduct the same in both directions, between materials by the harmonic mean", "[heat]") {
     Material good = conducting();
     Material poor = conducting();
     poor.thermal.conductivity = 1.0;
@@ -298,17 +298,17 @@ TEST_CASE("Ways conduct the same in both directions, between materials by the ha
     findNetwork(evaluator.preparePairs(particles), particles, {}, {}, temperature, 0.0, network);
     std::size_t mixed = 0;
     for (std::uint32_t p = 0; p < particles.count(); ++p)
-        for (std::size_t way = network.begin[p]; way < network.begin[p + 1]; ++way) {
-            const std::uint32_t other = network.other[way];
+        for (std::size_t link = network.begin[p]; link < network.begin[p + 1]; ++link) {
+            const std::uint32_t other = network.other[link];
             const auto back =
                 std::find(network.other.begin() + static_cast<std::ptrdiff_t>(network.begin[other]),
                           network.other.begin() + static_cast<std::ptrdiff_t>(network.begin[other + 1]), p);
             REQUIRE(back != network.other.begin() + static_cast<std::ptrdiff_t>(network.begin[other + 1]));
-            CHECK(network.conductance[way] ==
+            CHECK(network.conductance[link] ==
                   network.conductance[static_cast<std::size_t>(back - network.other.begin())]);
             const double ratio = std::sqrt(squaredLength(particles.position[p] - particles.position[other])) / 0.04;
             const double mean = p % 2 == other % 2 ? (p % 2 == 0 ? 5.0 : 1.0) : 2.0 * 5.0 / 6.0;
-            CHECK(network.conductance[way] == Approx(mean * 0.04 * conductanceAt(ratio)).margin(1e-12));
+            CHECK(network.conductance[link] == Approx(mean * 0.04 * conductanceAt(ratio)).margin(1e-12));
             mixed += p % 2 == other % 2 ? 0U : 1U;
         }
     CHECK(mixed > 100);
