@@ -131,10 +131,12 @@ if wanted shapes; then
 fi
 
 if wanted scenes; then
-    "$globular" gallery -o out/gallery --size 960x540 --quiet --markdown > "$work/gallery.md"
+    "$globular" gallery -o out/gallery --size 1280x720 --quiet --markdown > "$work/gallery.md"
     mkdir -p docs/paper
-    cp out/gallery/*.png docs/
-    cp out/gallery/paper/*.png docs/paper/
+    # Stills of two thirds of the films' size, which pages show in full.
+    for still in out/gallery/*.png out/gallery/paper/*.png; do
+        ffmpeg -v error -y -i "$still" -vf scale=960:-1:flags=area "docs/${still#out/gallery/}"
+    done
     cp "$work/gallery.md" docs/gallery.md
 fi
 
