@@ -7,6 +7,7 @@
 #include "scenes/build/builders.h"
 #include "scenes/build/overlay_text.h"
 #include "scenes/model/to_float.h"
+#include "scenes/text/black_body.h"
 #include "scenes/text/color.h"
 
 namespace scenes {
@@ -68,6 +69,18 @@ CameraPlacement placementFrom(const Section& section) {
     return camera;
 }
 
+/// The color map of a black body is made for temperatures at which there is some light.
+void checkBlackBody(Section& section, BuildContext& context) {
+    constexpr double kLowestEnd = 300.0;  // K; chosen: far below any visible light, far above where it is 0 in double
+    if (!section.has("color_map") || section.string("color_map") != "black-body") return;
+    if (section.string("color_by") != "temperature")
+        report(section, "color_map", context, "color_map \"black-body\" is for color_by \"temperature\"");
+    if (section.isGiven("color_range") && section.numbers("color_range")[1] < kLowestEnd)
+        report(section, "color_range", context,
+               "color_range ends at {} K, must reach {:g} K for color_map \"black-body\"",
+               section.numbers("color_range")[1], kLowestEnd);
+}
+
 void readColors(Section& section, const BuildContext& context, Look& look) {
     const std::string& colorBy = section.string("color_by");
     look.colorBy = colorBy == "speed"         ? ColorBy::speed
@@ -75,15 +88,19 @@ void readColors(Section& section, const BuildContext& context, Look& look) {
                    : colorBy == "temperature" ? ColorBy::temperature
                                               : ColorBy::material;
     if (look.colorBy == ColorBy::material) return;
+    look.isRampOfLight = section.has("color_map") && section.string("color_map") == "black-body";
     // The speed of the last color, 5 m/s, is chosen: about the speed of a fall from 1.3 m. The temperatures are those
-    // of liquid water.
+    // of liquid water, and those between the first red that one sees in the dark and liquid steel or basalt.
     const std::vector<double> range = look.colorBy == ColorBy::speed         ? std::vector{0.0, 5.0}
+                                      : look.isRampOfLight                   ? std::vector{800.0, 1500.0}
                                       : look.colorBy == ColorBy::temperature ? std::vector{273.15, 373.15}
                                                                              : std::vector{0.0, context.duration};
     section.derive("color_range", TypedValue::ofNumbers(range));
-    look.ramp = section.has("color_map") ? colorMap(section.string("color_map")) : section.vectors("colors");
     look.rampLow = section.numbers("color_range")[0];
     look.rampHigh = section.numbers("color_range")[1];
+    look.ramp = look.isRampOfLight         ? blackBodyRamp(look.rampLow, look.rampHigh)
+                : section.has("color_map") ? colorMap(section.string("color_map"))
+                                           : section.vectors("colors");
 }
 
 render::Skin skinNamed(std::string_view name) {
@@ -199,6 +216,7 @@ Look buildLook(Section& section, const CameraPath& camera, BuildContext& context
     Look look;
     const auto toLight = directionFrom(section, "light_direction", context);
     settleConflict(section, "colors", "color_map", context);
+    if (section.isValid()) checkBlackBody(section, context);
     if (!section.isValid()) return look;
     readColors(section, context, look);
     // 30 m suits pictures that are a few meters high.

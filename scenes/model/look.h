@@ -74,9 +74,10 @@ struct Look {
     double groundHeight = 0.0;  ///< height of the ground, if there is one, m
     bool hasTimeStamp = false;
     ColorBy colorBy = ColorBy::material;
-    std::vector<engine::Vec3> ramp;  ///< linear RGB for low to high speed or age; empty for colors by material
-    double rampLow = 0.0;            ///< speed (m/s) or age (s) of the first color of the ramp
-    double rampHigh = 1.0;           ///< speed (m/s) or age (s) of the last color of the ramp
+    std::vector<engine::Vec3> ramp;  ///< linear RGB from low to high; empty for colors by material
+    double rampLow = 0.0;            ///< speed (m/s), age (s) or temperature (K) of the first color of the ramp
+    double rampHigh = 1.0;           ///< speed (m/s), age (s) or temperature (K) of the last color of the ramp
+    bool isRampOfLight = false;  ///< whether the ramp is that of a black body, whose light adds to the material's color
 };
 
 }  // namespace scenes

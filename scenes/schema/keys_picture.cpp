@@ -18,6 +18,12 @@ void append(std::vector<Key>& keys, std::vector<Key> more) {
     for (Key& row : more) keys.push_back(std::move(row));
 }
 
+std::vector<std::string_view> namesWithBlackBody() {
+    std::vector<std::string_view> names = colorMapNames();
+    names.push_back("black-body");
+    return names;
+}
+
 std::vector<Key> colorKeys() {
     return {
         key("style", Type::choice, "", "particles one by one, or as one smooth surface")
@@ -33,12 +39,16 @@ std::vector<Key> colorKeys() {
             .defaultsTo("[\"#1f4e9e\", \"#4fb3d9\", \"#f4f1de\"]")
             .within(kUnitInterval)
             .onlyFor({"speed", "age", "temperature"}),
-        key("color_map", Type::choice, "", "a perceptually uniform color map instead of colors")
+        key("color_map", Type::choice, "",
+            "a perceptually uniform color map instead of colors; black-body, only for temperature: the light of a hot "
+            "body "
+            "beside the color of its material")
             .derivedAs("colors is used")
-            .oneOf(colorMapNames())
+            .oneOf(namesWithBlackBody())
             .onlyFor({"speed", "age", "temperature"}),
         key("color_range", Type::interval, "m/s, s or K", "quantities of the first and the last color")
-            .derivedAs("[0, 5] for speed, [0, duration] for age, [273.15, 373.15] for temperature")
+            .derivedAs(
+                "[0, 5] for speed, [0, duration] for age, [273.15, 373.15] for temperature, [800, 1500] for black-body")
             .onlyFor({"speed", "age", "temperature"}),
         color("background_top", "background at the upper edge of the picture").defaultsTo("\"#b4c4d4\""),
         color("background_bottom", "background at the lower edge of the picture").defaultsTo("\"#e6ebf0\""),

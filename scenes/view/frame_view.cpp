@@ -28,12 +28,16 @@ using engine::Vec3;
 
 Vec3 particleColor(const Scene& scene, const engine::Particles& particles, std::size_t index, double time) {
     const Look& look = scene.look;
-    if (look.colorBy == ColorBy::material) return scene.materialColors.at(particles.material[index]);
+    const Vec3& own = scene.materialColors.at(particles.material[index]);
+    if (look.colorBy == ColorBy::material) return own;
     const double quantity = look.colorBy == ColorBy::age ? time - particles.birthTime[index]
                             : look.colorBy == ColorBy::temperature
                                 ? engine::temperatureOf(scene.setup.materials, particles, index)
                                 : std::sqrt(engine::squaredLength(particles.velocity[index]));
-    return rampColor(look.ramp, (quantity - look.rampLow) / (look.rampHigh - look.rampLow));
+    const Vec3 color = rampColor(look.ramp, (quantity - look.rampLow) / (look.rampHigh - look.rampLow));
+    if (!look.isRampOfLight) return color;
+    // A glowing particle radiates the square of its color, and lights add up.
+    return (own.cwiseAbs2() + color.cwiseAbs2()).cwiseSqrt().cwiseMin(1.0);
 }
 
 /// The point that the positions of a view are relative to, so that single precision is fine enough for them wherever

@@ -192,8 +192,8 @@ TEST_CASE("a color map and explicit colors exclude each other, and unknown names
     CHECK(sceneOf(look + "color_map = \"ember\"\n", {"look.colors=[\"#000000\"]"}).look.ramp.size() == 1);
     CHECK(problemsOf(look, {"look.colors=[\"#000000\"]", "look.color_map=ember"}).size() == 1);
     CHECK(problemsOf(look + "color_map = \"embers\"\n") ==
-          Lines{"pile.toml:8:13: color_map is \"embers\", must be \"lagoon\", \"ember\", \"dusk\" or \"glacier\", did "
-                "you mean \"ember\"?"});
+          Lines{"pile.toml:8:13: color_map is \"embers\", must be \"lagoon\", \"ember\", \"dusk\", \"glacier\" or "
+                "\"black-body\", did you mean \"ember\"?"});
     CHECK(problemsOf(kBall + "[look]\ncolor_map = \"ember\"\n") ==
           Lines{"pile.toml:7:1: color_map does not apply to color_by \"material\", only to speed, age, temperature"});
 }
