@@ -2,7 +2,7 @@
 # Draws the pictures of README.md and docs/ into docs/: the first scene as a moving picture and with one key changed at a time,
 # the stills and the numbers of docs/gallery.md (scenes that out/gallery has already are not drawn again), and a strip of moments of
 # each figure of the paper. Needs the program, which figures.sh builds. With names (first, keys, constants, shapes, scenes, loads,
-# figures, splash, two-liquids, blur) it draws these alone.
+# figures, splash, two-liquids, chocolate, blur) it draws these alone.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -154,6 +154,9 @@ if wanted two-liquids; then
 fi
 if wanted splash; then
     "$globular" strip splash --size 400x225 --quiet -o docs/strip.png
+fi
+if wanted chocolate; then
+    "$globular" strip chocolate --size 400x225 --quiet -o docs/chocolate-strip.png
 fi
 if wanted blur; then
     for still in rotor:72 beads:0; do

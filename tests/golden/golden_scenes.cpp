@@ -12,8 +12,12 @@ std::string goldenName(const GoldenScene& scene, const std::string& style, int f
 
 const std::vector<GoldenScene>& scenes() {
     static const std::vector<GoldenScene> kScenes = {
+        {"candle", 30, 75, {}},
         {"cascade", 30, 130, {}},
+        {"casting", 20, 60, {}},
+        {"chocolate", 15, 45, {}},
         {"conveyor", 20, 60, {}},
+        {"drops", 15, 30, {}},
         {"fountain", 20, 60, {}, true},
         {"gate", 25, 50, {"physics.stepper=velocity-verlet", "physics.step=0.003"}},
         {"honey", 30, 90, {}},
@@ -21,6 +25,7 @@ const std::vector<GoldenScene>& scenes() {
         {"jam", 5, 30, {"physics.stepper=linearly-implicit", "physics.step=0.01"}},
         {"lava", 30, 90, {}},
         {"liquid", 5, 30, {"physics.stepper=velocity-verlet", "physics.step=0.004"}, true},
+        {"mercury", 15, 45, {}},
         {"mixer", 25, 60, {"physics.error=2"}},
         {"molten-metal", 30, 90, {}},
         {"mud", 6, 24, {"physics.error=2"}},
