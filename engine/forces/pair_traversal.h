@@ -86,12 +86,18 @@ struct PairTraversal {
         return static_cast<std::uint32_t>(list.rows.ownIndices[laneSlot]);
     }
 
-    /// Calls visit(sorted index, P, P.P) for every particle within the cutoff of the particle in a lane slot. Which
-    /// listed neighbors lie beyond the cutoff is unpredictable, so they are filtered first, without branches.
+    /// Calls visit(sorted index, P, P.P) for every particle within the cutoff of the particle in a lane slot.
     template <class Visit>
     void forEachNeighbor(std::size_t laneSlot, const Visit& visit) const {
+        forEachWithin(terms.cutoff, laneSlot, visit);
+    }
+
+    /// The same for every particle within a distance (m) that is at most the cutoff. Which listed neighbors lie beyond
+    /// it is unpredictable, so they are filtered first, without branches.
+    template <class Visit>
+    void forEachWithin(double distance, std::size_t laneSlot, const Visit& visit) const {
         const PackedParticle& p = packed[sortedIndexAt(laneSlot)];
-        const double cutoffSq = terms.cutoff * terms.cutoff;
+        const double reachSq = distance * distance;
         constexpr std::uint32_t kAtOnce = 128;  // neighbors filtered at a time; chosen: more than in most rows
         std::array<std::uint32_t, kAtOnce> within;
         const RowBlock& block = list.rows.blocks[NeighborRows::blockOf(laneSlot)];
@@ -103,7 +109,7 @@ struct PairTraversal {
             for (std::uint32_t k = begin; k < end; ++k) {
                 const auto other = static_cast<std::uint32_t>(block.entries[first + k * kClusterSize]);
                 within[found] = other;
-                found += squaredLength(separationOf(p, packed[other])) < cutoffSq ? 1U : 0U;
+                found += squaredLength(separationOf(p, packed[other])) < reachSq ? 1U : 0U;
             }
             for (std::size_t k = 0; k < found; ++k) {
                 const auto visitIt = [&](const Vec3& separation, double distanceSq) {

@@ -34,9 +34,6 @@ class HeatBodies {
     double& enthalpy(std::size_t p) const { return particles_.enthalpy[p]; }
     double temperature(std::size_t p) const { return temperatureOf(materials_, particles_, p); }
 
-    /// Heat that warms the particle by 1 K where nothing melts, J/K.
-    double largestCapacityRate(std::size_t p) const { return particles_.mass[p] * thermal(p).capacity; }
-
     /// dT/dH, K/J.
     double warmingOf(std::size_t p) const {
         return warming(thermal(p), particles_.enthalpy[p] / particles_.mass[p]) / particles_.mass[p];
@@ -49,29 +46,20 @@ class HeatBodies {
     Particles& particles_;
 };
 
-/// Heat that flows into a particle, W.
-/// @param combined  temperatures in combined order, K
-double flowInto(const HeatNetwork& network, std::size_t p, double own, const std::vector<double>& combined) {
-    double flow = network.inflow[p] - network.conductanceOutside[p] * own;
-    for (std::size_t link = network.begin[p]; link < network.begin[p + 1]; ++link)
-        flow += network.conductance[link] * (combined[network.other[link]] - own);
-    return flow;
-}
-
 class Exchange {
  public:
     Exchange(const HeatNetwork& network, const HeatBodies& bodies, const Ranks& ranks, const ShareNumbers& share,
              HeatScratch& scratch)
         : network_(network), bodies_(bodies), ranks_(ranks), share_(share), scratch_(scratch) {}
 
-    /// Returns the heat from outside, J.
-    double run(double seconds) {
-        const double rate = largestOver(bodies_.count(), [&](std::size_t p) {
-            return (network_.conductanceToOthers[p] + network_.conductanceOutside[p]) / bodies_.largestCapacityRate(p);
-        });
-        if (seconds * largestOfAll(ranks_, rate) <= kExplicitShare) return explicitly(seconds);
-        return implicitly(seconds, kMostHalvings);
+    /// Both return the heat from outside, J.
+    double explicitly(double seconds) {
+        remember();
+        findTemperatures();
+        return flow(seconds);
     }
+
+    double implicitly(double seconds) { return implicitly(seconds, kMostHalvings); }
 
  private:
     void findTemperatures() {
@@ -82,23 +70,36 @@ class Exchange {
 
     /// Sets enthalpies to those before plus what flows at the temperatures in scratch; returns the heat from outside.
     double flow(double seconds) {
-        share_(scratch_.temperature, scratch_.combined);
+        shareTemperatures();
         return exactSum(ranks_, bodies_.count(), [&](std::size_t p) {
-            const double own = scratch_.temperature[p];
-            bodies_.enthalpy(p) = scratch_.before[p] + seconds * flowInto(network_, p, own, scratch_.combined);
-            return seconds * (network_.inflow[p] - network_.conductanceOutside[p] * own);
+            const double fromOutside = flowFromOutside(p);
+            bodies_.enthalpy(p) = scratch_.before[p] + seconds * (flowFromOthers(p) + fromOutside);
+            return seconds * fromOutside;
         });
+    }
+
+    void shareTemperatures() {
+        if (network_.hasLinks()) share_(scratch_.temperature, scratch_.combined);
+    }
+
+    /// Heat that flows into a particle from others at the temperatures in scratch, W. Without links, these are the ones
+    /// that the network was found at.
+    double flowFromOthers(std::size_t p) const {
+        if (!network_.hasLinks()) return network_.flowFromOthers[p];
+        double flow = 0.0;
+        for (std::size_t link = network_.begin[p]; link < network_.begin[p + 1]; ++link)
+            flow += network_.conductance[link] * (scratch_.combined[network_.other[link]] - scratch_.temperature[p]);
+        return flow;
+    }
+
+    /// Heat that flows into it from obstacles and air, W.
+    double flowFromOutside(std::size_t p) const {
+        return network_.inflow[p] - network_.conductanceOutside[p] * scratch_.temperature[p];
     }
 
     void remember() {
         scratch_.before.resize(bodies_.count());
         inParallel(bodies_.count(), kParticleGrain, [&](std::size_t p) { scratch_.before[p] = bodies_.enthalpy(p); });
-    }
-
-    double explicitly(double seconds) {
-        remember();
-        findTemperatures();
-        return flow(seconds);
     }
 
     double implicitly(double seconds, int halvings) {
@@ -120,10 +121,10 @@ class Exchange {
 
     /// Finds what of their heat the present temperatures do not account for.
     void findMissing(double seconds) {
-        share_(scratch_.temperature, scratch_.combined);
+        shareTemperatures();
         scratch_.missing.resize(bodies_.count());
         inParallel(bodies_.count(), kParticleGrain, [&](std::size_t p) {
-            const double flowed = seconds * flowInto(network_, p, scratch_.temperature[p], scratch_.combined);
+            const double flowed = seconds * (flowFromOthers(p) + flowFromOutside(p));
             scratch_.missing[p] = scratch_.before[p] + flowed - bodies_.enthalpy(p);
         });
     }
@@ -180,10 +181,21 @@ double temperatureOf(const std::vector<Material>& materials, const Particles& pa
     return temperatureAt(materials[particles.material[p]].thermal, particles.enthalpy[p] / particles.mass[p]);
 }
 
+bool isExplicit(const HeatNetwork& network, const std::vector<Material>& materials, const Ranks& ranks, double seconds,
+                const Particles& particles) {
+    const double rate = largestOver(particles.count(), [&](std::size_t p) {
+        const double capacity = particles.mass[p] * materials[particles.material[p]].thermal.capacity;
+        return (network.conductanceToOthers[p] + network.conductanceOutside[p]) / capacity;
+    });
+    return seconds * largestOfAll(ranks, rate) <= kExplicitShare;
+}
+
 double exchangeHeat(const HeatNetwork& network, const std::vector<Material>& materials, const Ranks& ranks,
                     const ShareNumbers& share, double seconds, Particles& particles, HeatScratch& scratch) {
     const HeatBodies bodies(materials, particles);
-    return Exchange(network, bodies, ranks, share, scratch).run(seconds);
+    Exchange exchange(network, bodies, ranks, share, scratch);
+    return isExplicit(network, materials, ranks, seconds, particles) ? exchange.explicitly(seconds)
+                                                                     : exchange.implicitly(seconds);
 }
 
 }  // namespace engine

@@ -33,9 +33,14 @@ double temperatureOf(const std::vector<Material>& materials, const Particles& pa
 /// temperatures of two particles would change places.
 inline constexpr double kExplicitShare = 0.5;
 
+/// Whether an exchange for some seconds is explicit, so that it needs no links.
+bool isExplicit(const HeatNetwork& network, const std::vector<Material>& materials, const Ranks& ranks, double seconds,
+                const Particles& particles);
+
 /// Exchanges heat for some seconds, and changes the particles' enthalpies; returns what obstacles and air have given,
-/// J. Explicit where that is stable, otherwise by the backward Euler method. No temperature leaves the range between
-/// the lowest and the highest of particles, obstacles and air, up to the solver's tolerance, 1e-6 K.
+/// J. Explicit where that is stable, which needs a network's links or that the particles have the temperatures that it
+/// was found at; otherwise by the backward Euler method. No temperature leaves the range between the lowest and the
+/// highest of particles, obstacles and air, up to the solver's tolerance, 1e-6 K.
 double exchangeHeat(const HeatNetwork& network, const std::vector<Material>& materials, const Ranks& ranks,
                     const ShareNumbers& share, double seconds, Particles& particles, HeatScratch& scratch);
 

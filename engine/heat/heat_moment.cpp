@@ -153,18 +153,21 @@ bool exchangeHeatDue(Simulation& simulation) {
     ForceEvaluator& evaluator = simulation.cache->evaluator;
     if (countOfAll(simulation) == 0) return false;
     const PairTraversal& pairs = evaluator.preparePairs(particles);
-    HeatScratch scratch;
-    HeatNetwork network;
-    const std::vector<Material>& materials = simulation.setup.materials;
-    scratch.temperature.resize(particles.count());
-    inParallel(particles.count(), kParticleGrain,
-               [&](std::size_t p) { scratch.temperature[p] = temperatureOf(materials, particles, p); });
-    findNetwork(pairs, particles, simulation.setup.obstacles, heat, scratch.temperature, simulation.time, network);
     bookLostEnergy(simulation, pairs);
     const ShareNumbers share = [&](const std::vector<double>& own, std::vector<double>& combined) {
         evaluator.shareNumbers(own, combined);
     };
-    simulation.heat.received += exchangeHeat(network, materials, *simulation.ranks, share, seconds, particles, scratch);
+    HeatScratch scratch;
+    HeatNetwork network;
+    const Ranks& ranks = *simulation.ranks;
+    const std::vector<Material>& materials = simulation.setup.materials;
+    scratch.temperature.resize(particles.count());
+    inParallel(particles.count(), kParticleGrain,
+               [&](std::size_t p) { scratch.temperature[p] = temperatureOf(materials, particles, p); });
+    share(scratch.temperature, scratch.combined);
+    findFlows(pairs, particles, simulation.setup.obstacles, heat, scratch.combined, simulation.time, network);
+    if (!isExplicit(network, materials, ranks, seconds, particles)) findLinks(pairs, particles, network);
+    simulation.heat.received += exchangeHeat(network, materials, ranks, share, seconds, particles, scratch);
     return !heat.melts.empty() && changeStages(simulation, pairs);
 }
 

@@ -1,4 +1,5 @@
-// Visits the neighbors of every particle twice: to count its links, and to fill them in.
+// Sums over the links of every particle while it visits them, so that only an implicit exchange, which needs them again
+// and again, has to keep them.
 #include "engine/heat/heat_network.h"
 
 #include <algorithm>
@@ -21,14 +22,14 @@ constexpr double kNextWeight = 1.0 - 2.0 / kReachSq;
 constexpr double kAllWeights = 12.0 * kTouchingWeight + 6.0 * kNextWeight;
 
 double weightAt(double distanceRatioSq) {
-    return std::max(0.0, 1.0 - distanceRatioSq / kReachSq);
+    return std::max(0.0, 1.0 - distanceRatioSq * (1.0 / kReachSq));
 }
 
-/// Conductance over conductivity and rest length, from the square of the distance in rest lengths. In closest packing,
-/// where the volume of a particle is D0^3/sqrt(2), x_j^2 sums to 4 D0^2 over the neighbors of either distance.
-double conductanceOverRest(double distanceRatioSq) {
+/// Conductance over conductivity and rest length, from the weight. In closest packing, where the volume of a particle
+/// is D0^3/sqrt(2), x_j^2 sums to 4 D0^2 over the neighbors of either distance.
+double conductanceOverRest(double weight) {
     constexpr double kOfLattice = 2.0 * std::numbers::sqrt2 * (kTouchingWeight + kNextWeight);
-    return weightAt(distanceRatioSq) / kOfLattice;
+    return weight * (1.0 / kOfLattice);
 }
 
 double harmonicMean(double a, double b) {
@@ -49,50 +50,71 @@ double halfDissipation(const PackedParticle& p, const PackedParticle& i, const V
     return 0.5 * power;
 }
 
-/// Fills in a network, particle by particle.
+/// Visits the links of every particle.
 class Finder {
  public:
     Finder(const PairTraversal& pairs, const Particles& particles, HeatNetwork& network)
-        : pairs_(pairs), particles_(particles), network_(network) {}
+        : pairs_(pairs), particles_(particles), network_(network) {
+        for (const Material& material : pairs.materials) conductivity_.push_back(material.thermal.conductivity);
+    }
+
+    /// @param temperature  in combined order, K
+    /// @param addOutside   addOutside(p, own temperature, cover) adds what p exchanges with obstacles and air
+    template <class AddOutside>
+    void findFlows(const std::vector<double>& temperature, const AddOutside& addOutside) {
+        for (auto* array :
+             {&network_.conductanceToOthers, &network_.flowFromOthers, &network_.conductanceOutside, &network_.inflow})
+            array->assign(particles_.count(), 0.0);
+        forEachOwn([&](std::size_t laneSlot, std::uint32_t p) {
+            const double own = temperature[pairs_.list.order[pairs_.sortedIndexAt(laneSlot)]];
+            Cover cover;
+            double conductances = 0.0;
+            double flow = 0.0;
+            forEachLink(laneSlot, [&](std::uint32_t other, double conductance, const Neighbor& at) {
+                conductances += conductance;
+                flow += conductance * (temperature[pairs_.list.order[other]] - own);
+                cover.weight += at.weight;
+                cover.side += at.weight / std::sqrt(at.distanceSq) * at.separation;
+            });
+            cover.weight /= kAllWeights;
+            cover.side /= kAllWeights;
+            network_.conductanceToOthers[p] = conductances;
+            network_.flowFromOthers[p] = flow;
+            addOutside(p, own, cover);
+        });
+    }
+
+    void findLinks() {
+        countLinks();
+        forEachOwn([&](std::size_t laneSlot, std::uint32_t p) {
+            std::size_t link = network_.begin[p];
+            forEachLink(laneSlot, [&](std::uint32_t other, double conductance, const Neighbor&) {
+                network_.other[link] = pairs_.list.order[other];
+                network_.conductance[link++] = conductance;
+            });
+        });
+    }
+
+ private:
+    /// Where a neighbor is that conducts.
+    struct Neighbor {
+        const Vec3& separation;  ///< P, m
+        double distanceSq;       ///< m^2
+        double weight;           ///< 1 - x^2/1.5^2
+    };
 
     void countLinks() {
         network_.begin.assign(particles_.count() + 1, 0);
         forEachOwn([&](std::size_t laneSlot, std::uint32_t p) {
             std::size_t count = 0;
-            forEachConducting(laneSlot, [&](std::uint32_t, const Vec3&, double, double) { ++count; });
+            forEachLink(laneSlot, [&](std::uint32_t, double, const Neighbor&) { ++count; });
             network_.begin[p + 1] = count;
         });
         for (std::size_t p = 0; p < particles_.count(); ++p) network_.begin[p + 1] += network_.begin[p];
         network_.other.resize(network_.begin.back());
         network_.conductance.resize(network_.begin.back());
-        for (auto* array : {&network_.conductanceToOthers, &network_.conductanceOutside, &network_.inflow})
-            array->assign(particles_.count(), 0.0);
     }
 
-    /// @param addOutside  addOutside(p, cover) adds what particle p exchanges with obstacles and air
-    template <class AddOutside>
-    void fillLinks(const AddOutside& addOutside) {
-        forEachOwn([&](std::size_t laneSlot, std::uint32_t p) {
-            Cover cover;
-            std::size_t link = network_.begin[p];
-            const PackedParticle& own = packedAt(laneSlot);
-            double sum = 0.0;
-            forEachConducting(laneSlot, [&](std::uint32_t other, const Vec3& separation, double ratioSq, double rest) {
-                const PackedParticle& neighbor = pairs_.packed[other];
-                const double conductivity = harmonicMean(thermalOf(own).conductivity, thermalOf(neighbor).conductivity);
-                network_.other[link] = pairs_.list.order[other];
-                network_.conductance[link] = conductivity * rest * conductanceOverRest(ratioSq);
-                sum += network_.conductance[link++];
-                const double weight = weightAt(ratioSq) / kAllWeights;
-                cover.weight += weight;
-                cover.side += weight / (std::sqrt(ratioSq) * rest) * separation;
-            });
-            network_.conductanceToOthers[p] = sum;
-            addOutside(p, cover);
-        });
-    }
-
- private:
     template <class Body>
     void forEachOwn(const Body& body) const {
         pairs_.forEachParticle([&](std::size_t laneSlot) {
@@ -101,26 +123,26 @@ class Finder {
         });
     }
 
-    /// Calls visit(sorted index, P, D^2/D0^2, D0) for the neighbors that conduct.
+    /// Calls visit(sorted index, conductance in W/K, Neighbor) for the neighbors that conduct.
     template <class Visit>
-    void forEachConducting(std::size_t laneSlot, const Visit& visit) const {
-        const PackedParticle& own = packedAt(laneSlot);
-        pairs_.forEachNeighbor(laneSlot, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
-            const double rest = own.radius + pairs_.packed[other].radius;
-            const double ratioSq = distanceSq / (rest * rest);
-            if (ratioSq < kReachSq) visit(other, separation, ratioSq, rest);
+    void forEachLink(std::size_t laneSlot, const Visit& visit) const {
+        const PackedParticle& own = pairs_.packed[pairs_.sortedIndexAt(laneSlot)];
+        const double ofOwn = conductivity_[own.material];
+        const double reach = kConductingReach * (own.radius + pairs_.terms.largestRadius);
+        pairs_.forEachWithin(reach, laneSlot, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
+            const PackedParticle& neighbor = pairs_.packed[other];
+            const double rest = own.radius + neighbor.radius;
+            const double weight = weightAt(distanceSq / (rest * rest));
+            if (!(weight > 0.0)) return;
+            const double conductivity = harmonicMean(ofOwn, conductivity_[neighbor.material]);
+            visit(other, conductivity * rest * conductanceOverRest(weight), {separation, distanceSq, weight});
         });
-    }
-
-    const PackedParticle& packedAt(std::size_t laneSlot) const { return pairs_.packed[pairs_.sortedIndexAt(laneSlot)]; }
-
-    const Thermal& thermalOf(const PackedParticle& particle) const {
-        return pairs_.materials[particle.material].thermal;
     }
 
     const PairTraversal& pairs_;
     const Particles& particles_;
     HeatNetwork& network_;
+    std::vector<double> conductivity_;  ///< of each material, W/(m K)
 };
 
 /// Conductance to the air over the free area at this temperature (K), W/(m^2 K). Radiation is that of the temperature
@@ -157,7 +179,7 @@ void addWalls(const Obstacles& obstacles, const HeatSetup& heat, const Thermal& 
 }  // namespace
 
 double conductanceAt(double distanceRatio) {
-    return conductanceOverRest(distanceRatio * distanceRatio);
+    return conductanceOverRest(weightAt(distanceRatio * distanceRatio));
 }
 
 double conductanceToWall(double conductivity, double radius, double height) {
@@ -176,20 +198,28 @@ double freeArea(double radius, const Cover& cover) {
     return radius * radius * std::min(kWholeArea, std::max(ofSurface, ofLone));
 }
 
-void findNetwork(const PairTraversal& pairs, const Particles& particles, const Obstacles& obstacles,
-                 const HeatSetup& heat, const std::vector<double>& temperature, double time, HeatNetwork& network) {
-    Finder finder(pairs, particles, network);
-    finder.countLinks();
-    finder.fillLinks([&](std::uint32_t p, Cover& cover) {
+void findFlows(const PairTraversal& pairs, const Particles& particles, const Obstacles& obstacles,
+               const HeatSetup& heat, const std::vector<double>& temperature, double time, HeatNetwork& network) {
+    Finder(pairs, particles, network).findFlows(temperature, [&](std::uint32_t p, double own, Cover& cover) {
         const Thermal& thermal = pairs.materials[particles.material[p]].thermal;
         const Probe probe = probeOf(pairs.materials, particles, p, particles.velocity[p], time);
         if (!obstacles.shapes.empty()) addWalls(obstacles, heat, thermal, probe, p, cover, network);
-        const double toAir = exchangeWithAir(heat.air, temperature[p]);
+        const double toAir = exchangeWithAir(heat.air, own);
         if (toAir == 0.0) return;
         const double conductance = toAir * freeArea(probe.radius, cover);
         network.conductanceOutside[p] += conductance;
         network.inflow[p] += conductance * heat.air.temperature;
     });
+}
+
+void findLinks(const PairTraversal& pairs, const Particles& particles, HeatNetwork& network) {
+    Finder(pairs, particles, network).findLinks();
+}
+
+void findNetwork(const PairTraversal& pairs, const Particles& particles, const Obstacles& obstacles,
+                 const HeatSetup& heat, const std::vector<double>& temperature, double time, HeatNetwork& network) {
+    findFlows(pairs, particles, obstacles, heat, temperature, time, network);
+    findLinks(pairs, particles, network);
 }
 
 std::vector<double> dissipationOf(const PairTraversal& pairs, const Particles& particles) {

@@ -29,12 +29,17 @@ namespace engine {
 inline constexpr double kStefanBoltzmann = 5.670374419e-8;
 
 struct HeatNetwork {
-    std::vector<std::size_t> begin;           ///< where the links of each own particle begin; one more than particles
-    std::vector<std::uint32_t> other;         ///< combined index of the particle at the other end of each link
-    std::vector<double> conductance;          ///< of each link, W/K
     std::vector<double> conductanceToOthers;  ///< sum over the links of a particle, W/K
+    std::vector<double> flowFromOthers;       ///< along them at the temperatures of the moment, W
     std::vector<double> conductanceOutside;   ///< to obstacles and air, W/K
     std::vector<double> inflow;               ///< conductances outside times the temperatures there, W
+
+    // The links themselves, which an explicit exchange does not need. Empty where they have not been found.
+    std::vector<std::size_t> begin;    ///< where the links of each own particle begin; one more than particles
+    std::vector<std::uint32_t> other;  ///< combined index of the particle at the other end of each link
+    std::vector<double> conductance;   ///< of each link, W/K
+
+    bool hasLinks() const { return !begin.empty(); }
 };
 
 /// Conductance of a particle and others like it over the conductivity (W/(m K)) and the rest length, at a distance of
@@ -56,9 +61,17 @@ struct Cover {
 /// has the rest of its own surface, too. Inside, where neighbors are on all sides, it is 0 at any density.
 double freeArea(double radius, const Cover& cover);
 
-/// Finds the links of heat for the particles that `pairs` was prepared and packed for.
-/// @param temperature  of each own particle, K; radiation follows from it
+/// Finds all of a network but the links themselves, for the particles that `pairs` was prepared and packed for. Visits
+/// the neighbors of every particle once.
+/// @param temperature  in combined order, K; radiation and the flows follow from it
 /// @param time         at which the obstacles are where they are, s
+void findFlows(const PairTraversal& pairs, const Particles& particles, const Obstacles& obstacles,
+               const HeatSetup& heat, const std::vector<double>& temperature, double time, HeatNetwork& network);
+
+/// Adds the links to a network, with two more visits of all neighbors. They take 12 bytes each.
+void findLinks(const PairTraversal& pairs, const Particles& particles, HeatNetwork& network);
+
+/// Finds a whole network; see findFlows().
 void findNetwork(const PairTraversal& pairs, const Particles& particles, const Obstacles& obstacles,
                  const HeatSetup& heat, const std::vector<double>& temperature, double time, HeatNetwork& network);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -342,6 +343,47 @@ TEST_CASE("A slab between two plates gets a straight profile, and passes the hea
             CHECK(network.inflow[p] - network.conductanceOutside[p] * temperature ==
                   Approx(kPlain.conductivity * area * 100.0 / thickness).epsilon(0.005));
     }
+}
+
+TEST_CASE("An explicit exchange is the same with and without links", "[heat]") {
+    const Material material = conducting();
+    std::vector<Material> materials = {material, material};
+    materials[1].thermal.conductivity = 50.0;
+    Particles particles = packedBlock(material, 5);
+    std::vector<double> temperature;
+    for (std::size_t p = 0; p < particles.count(); ++p) {
+        particles.material[p] = p % 3 == 0 ? 1 : 0;
+        temperature.push_back(300.0 + static_cast<double>(p * p % 37));
+        particles.enthalpy[p] = material.mass * enthalpyAt(kPlain, temperature[p]);
+    }
+    HeatSetup heat;
+    heat.air = {.temperature = 280.0, .exchange = 10.0};
+    ForceEvaluator evaluator({.materials = materials, .gravity = Vec3::Zero(), .obstacles = {}}, ForceMethod::grid);
+    const PairTraversal& pairs = evaluator.preparePairs(particles);
+    HeatNetwork flows;
+    findFlows(pairs, particles, {}, heat, temperature, 0.0, flows);
+    HeatNetwork network;
+    findNetwork(pairs, particles, {}, heat, temperature, 0.0, network);
+    CHECK_FALSE(flows.hasLinks());
+    REQUIRE(network.hasLinks());
+    constexpr double kSeconds = 1.0;
+    REQUIRE(isExplicit(flows, materials, Ranks::alone(), kSeconds, particles));
+    const ShareNumbers share = [](const auto& own, auto& combined) { combined = own; };
+    Particles again = particles;
+    HeatScratch scratch;
+    const double given = exchangeHeat(network, materials, Ranks::alone(), share, kSeconds, particles, scratch);
+    CHECK(exchangeHeat(flows, materials, Ranks::alone(), share, kSeconds, again, scratch) == given);
+    double largest = 0.0;
+    double moved = 0.0;
+    for (std::size_t p = 0; p < particles.count(); ++p) {
+        // Temperatures that follow from enthalpies differ by rounding from those given.
+        largest = std::max(largest, std::abs(again.enthalpy[p] - particles.enthalpy[p]));
+        moved = std::max(moved, std::abs(particles.enthalpy[p] - material.mass * enthalpyAt(kPlain, temperature[p])));
+    }
+    CHECK(moved > 1.0);
+    // Each temperature is rounded by half an epsilon, of which an explicit exchange passes on less than all, and each
+    // enthalpy by as much.
+    CHECK(largest < 4.0 * std::numeric_limits<double>::epsilon() * material.mass * enthalpyAt(kPlain, 400.0));
 }
 
 TEST_CASE("The air meets the free surface alone, at any density", "[heat]") {
