@@ -10,6 +10,7 @@
 #include "engine/run/diagnostics.h"
 #include "engine/run/redistribution.h"
 #include "engine/stepping/step_cache.h"
+#include "tests/engine/on_instruction_set.h"
 #include "tests/engine/runs.h"
 #include "tests/engine/thread_ranks.h"
 
@@ -182,6 +183,28 @@ TEST_CASE("The heat of damping stays with those that are damped", "[heat]") {
     const double given = simulation.heat.damped - simulation.heat.pending;
     CHECK(given > 0.5 * simulation.heat.damped);
     CHECK(enthalpy[0] + enthalpy[1] - 2.0 * cold == Approx(given).epsilon(1e-6));
+}
+
+TEST_CASE("A run with heat has the same bits on every instruction set", "[heat]") {
+    // At the higher conductivity the exchanges are implicit.
+    for (const double conductivity : {40.0, 4000.0})
+        for (const StepperKind stepper : {StepperKind::velocityVerlet, StepperKind::automatic})
+            for (const Precision precision : {Precision::doubles, Precision::singles}) {
+                Setup setup = blockOnPlate(stepper, 349.0, 500.0);
+                setup.precision = precision;
+                for (Material& material : setup.materials) material.thermal.conductivity = conductivity;
+                std::string expected;
+                for (const std::string& name : instructionSets()) {
+                    INFO(name << ", " << nameOf(stepper) << ", precision " << static_cast<int>(precision));
+                    const OnInstructionSet on(name);
+                    Simulation simulation = start(setup);
+                    advanceFrames(simulation, 0, 8);
+                    CHECK(meanShare(simulation) > 0.01);
+                    const std::string hash = hashOf(encodeCheckpoint(simulation));
+                    if (expected.empty()) expected = hash;
+                    CHECK(hash == expected);
+                }
+            }
 }
 
 TEST_CASE("A run with heat has the same bits on any threads, ranks and after a resume", "[heat]") {
