@@ -42,11 +42,11 @@ double halfDissipation(const PackedParticle& p, const PackedParticle& i, const V
     const Vec3 velocity(p.vx - i.vx, p.vy - i.vy, p.vz - i.vz);
     const double approach = dot(velocity, separation);
     double power = pairDampingOverSq(distanceSq, constants) * approach * approach;
-    if (constants.friction > 0.0) {
-        const double push = pairCoefficient<kConservative>(distanceSq, 0.0, constants) * std::sqrt(distanceSq);
-        const double slipSq = std::max(0.0, squaredLength(velocity) - approach * approach / distanceSq);
-        power += slipDamping(constants.friction, push, slipSq) * slipSq;
-    }
+    if (!(constants.friction > 0.0)) return 0.5 * power;
+    const double pushOverDistance = pairCoefficient<kConservative>(distanceSq, 0.0, constants);
+    if (!(pushOverDistance > 0.0)) return 0.5 * power;  // most neighbors do not touch
+    const double slipSq = std::max(0.0, squaredLength(velocity) - approach * approach / distanceSq);
+    power += slipDamping(constants.friction, pushOverDistance * std::sqrt(distanceSq), slipSq) * slipSq;
     return 0.5 * power;
 }
 
@@ -224,14 +224,26 @@ void findNetwork(const PairTraversal& pairs, const Particles& particles, const O
 
 std::vector<double> dissipationOf(const PairTraversal& pairs, const Particles& particles) {
     std::vector<double> powers(particles.count(), 0.0);
+    // Read where they are: copies of the constants would take longer than what is computed from them.
+    const PairTable& table = pairs.table;
+    const bool areTabulated = pairs.terms.oneRadius && (table.oneLaw || !table.mixtures.empty());
+    const std::size_t stride = table.oneLaw ? 0 : table.materialCount;
     pairs.forEachParticle([&](std::size_t laneSlot) {
         const std::uint32_t p = pairs.order()[pairs.sortedIndexAt(laneSlot)];
         if (p == kGhost) return;
         const PackedParticle& own = pairs.packed[pairs.sortedIndexAt(laneSlot)];
+        PairConstants<double> computed;
+        double power = 0.0;
         pairs.forEachNeighbor(laneSlot, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
             const PackedParticle& neighbor = pairs.packed[other];
-            powers[p] += halfDissipation(own, neighbor, separation, distanceSq, pairs.constants(own, neighbor));
+            const PairConstants<double>* constants = &computed;
+            if (areTabulated)
+                constants = &table.constants[stride == 0 ? 0 : own.material * stride + neighbor.material];
+            else
+                computed = pairs.constants(own, neighbor);
+            power += halfDissipation(own, neighbor, separation, distanceSq, *constants);
         });
+        powers[p] = power;
     });
     return powers;
 }
