@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 
 /// A short, small run of a scene of metaballs with shadows, births and obstacles.
 std::string fountainRun(const fs::path& folder, const std::string& more) {
-    return "render measured/fountain --size 160x90 --frames 0-9 --quiet -o " + folder.string() + " --video " + folder.string() +
-           ".mp4 " + more;
+    return "render measured/fountain --size 160x90 --frames 0-9 --quiet -o " + folder.string() + " --video " +
+           folder.string() + ".mp4 " + more;
 }
 
 std::vector<std::string> frameBytes(const fs::path& folder) {
@@ -62,6 +62,38 @@ TEST_CASE("A run leaves every frame, a video and a complete run.json, and repeat
     CHECK(single["threads"] == 1);
     CHECK(single["state_hash"] == json["state_hash"]);
     CHECK(single["scene_hash"] == json["scene_hash"]);
+}
+
+TEST_CASE("run.json of a run with heat says where the heat is from, and others have no word of it", "[tools]") {
+    const program::Folder folder;
+    const std::string scene = (folder / "wax.toml").string();
+    const auto write = [&](const std::string& heat, const std::string& plate) {
+        std::ofstream(scene) << "title = \"wax\"\nduration = 1\nfps = 20\n[physics]\nstepper = \"velocity-verlet\"\n"
+                                "[[material]]\nname = \"wax\"\npreset = \"solid\"\nradius = 0.05\n"
+                             << heat << "[[body]]\nshape = \"box\"\nminimum = [-0.2, 0, -0.2]\n"
+                             << "maximum = [0.2, 0.3, 0.2]\n[[obstacle]]\nshape = \"plane\"\n"
+                             << plate;
+    };
+    const auto simulated = [&](const std::string& name) {
+        REQUIRE(run("simulate " + scene + " --quiet -o " + (folder / name).string()).code == 0);
+        return nlohmann::json::parse(textOf(folder / name / "run.json"));
+    };
+    write("", "");
+    CHECK_FALSE(simulated("cold").contains("heat"));
+    const std::string heat = "capacity = 1000\nconductivity = 200\nmelting = 302\nlatent = 100\ntemperature = 301\n";
+    const std::string melts =
+        "melts_to = \"melt\"\n[[material]]\nname = \"melt\"\npreset = \"mud\"\nradius = 0.05\n"
+        "capacity = 1000\n";
+    write(heat + melts, "temperature = 400\n");
+    const auto hot = simulated("hot")["heat"];
+    CHECK(hot["exchanges"] == 38);  // two in each of 19 frames
+    CHECK(hot["received"] > 0.0);
+    CHECK(hot["from_motion"] > 0.0);
+    CHECK(hot["paid_for_melting"] != 0.0);
+    write(heat, "temperature = 200\n");
+    const auto chilled = simulated("chilled")["heat"];
+    CHECK(chilled["received"] < 0.0);
+    CHECK(chilled["paid_for_melting"] == 0.0);
 }
 
 TEST_CASE("A run and check say that particles have left the scene", "[tools]") {

@@ -95,6 +95,15 @@ Json energyJson(const engine::Energy& energy) {
     return json;
 }
 
+/// Where the heat of the particles came from and went to, J.
+Json heatJson(const engine::HeatState& heat) {
+    return {{"exchanges", heat.exchangeCount},
+            {"received", heat.received},
+            {"from_motion", heat.damped},
+            {"paid_for_melting", heat.ofMelting},
+            {"pending", heat.pending}};
+}
+
 /// The first fields of run.json: the scene, and what the program ran on and drew with.
 Json programJson(const scenes::Scene& scene, const RunReport& report) {
     Json json = sceneIdentity(scene);
@@ -158,6 +167,7 @@ Json runJson(const scenes::Scene& scene, FinishedRun& run) {
                      {"deepest", simulation.wallDepths.deepest},
                      {"centers_outside", simulation.wallDepths.centersOutside}};
     if (!simulation.loads.empty()) json["obstacles"] = loadsJson(scene, simulation);
+    if (simulation.setup.heat) json["heat"] = heatJson(simulation.heat);
     json["frames"] = report.frames;
     json["resumed_from"] = report.resumedFrom ? Json(*report.resumedFrom) : Json(nullptr);
     json["interrupted"] = report.interruptedBy != 0;
