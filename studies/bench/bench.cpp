@@ -113,10 +113,17 @@ BenchRow listRow(const Subject& subject, const BenchSettings& settings) {
     return row;
 }
 
-/// Measures steps from the lattice. Their number is fixed, so that the hashes of the states at the end can be compared.
-BenchRow stepsRow(const Subject& subject, StepperKind stepper, Precision precision, const BenchSettings& settings) {
+/// Number of steps of this length (s) that are measured. It is fixed, so that the hashes of the states at the end can
+/// be compared. With heat, one exchange falls among them, as often as in a run.
+int measuredSteps(const engine::Setup& setup, double step) {
     constexpr int kSteps = 20;
+    return setup.heat ? static_cast<int>(std::ceil(setup.heat->interval / step)) : kSteps;
+}
+
+/// Measures steps from the lattice.
+BenchRow stepsRow(const Subject& subject, StepperKind stepper, Precision precision, const BenchSettings& settings) {
     constexpr double kStep = 0.001;  // step, s; chosen: stable with all steppers
+    const int steps = measuredSteps(subject.setup, kStep);
     engine::Setup setup = subject.setup;
     setup.stepper = stepper;
     setup.precision = precision;
@@ -128,7 +135,7 @@ BenchRow stepsRow(const Subject& subject, StepperKind stepper, Precision precisi
     for (int round = 0; round < settings.rounds; ++round) {
         engine::Simulation simulation = engine::start(setup);
         engine::advance(simulation, kStep);  // builds the neighbor list
-        rounds.push_back(secondsOf([&] { engine::advance(simulation, (kSteps + 1) * kStep); }) / kSteps);
+        rounds.push_back(secondsOf([&] { engine::advance(simulation, (steps + 1) * kStep); }) / steps);
         row.stateHash = engine::stateHash(simulation.particles);
     }
     row.seconds = median(std::move(rounds));

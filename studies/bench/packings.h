@@ -1,5 +1,5 @@
 // The lattices of particles that the benchmark measures on: of one material, of two and of sixteen with different force
-// laws, and of particles of unequal radii.
+// laws, of two materials that melt, and of particles of unequal radii.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@
 namespace studies {
 
 /// What the particles of a lattice differ in.
-enum class Differences { none, twoLaws, sixteenLaws, radii };
+enum class Differences { none, twoLaws, sixteenLaws, heat, radii };
 
 /// A lattice of particles.
 struct Packing {
