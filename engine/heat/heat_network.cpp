@@ -216,12 +216,6 @@ void findLinks(const PairTraversal& pairs, const Particles& particles, HeatNetwo
     Finder(pairs, particles, network).findLinks();
 }
 
-void findNetwork(const PairTraversal& pairs, const Particles& particles, const Obstacles& obstacles,
-                 const HeatSetup& heat, const std::vector<double>& temperature, double time, HeatNetwork& network) {
-    findFlows(pairs, particles, obstacles, heat, temperature, time, network);
-    findLinks(pairs, particles, network);
-}
-
 std::vector<double> dissipationOf(const PairTraversal& pairs, const Particles& particles) {
     std::vector<double> powers(particles.count(), 0.0);
     // Read where they are: copies of the constants would take longer than what is computed from them.

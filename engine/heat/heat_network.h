@@ -71,10 +71,6 @@ void findFlows(const PairTraversal& pairs, const Particles& particles, const Obs
 /// Adds the links to a network, with two more visits of all neighbors. They take 12 bytes each.
 void findLinks(const PairTraversal& pairs, const Particles& particles, HeatNetwork& network);
 
-/// Finds a whole network; see findFlows().
-void findNetwork(const PairTraversal& pairs, const Particles& particles, const Obstacles& obstacles,
-                 const HeatSetup& heat, const std::vector<double>& temperature, double time, HeatNetwork& network);
-
 /// Heat that damping and friction make of each own particle's motion at this moment, W: half of that of its pairs.
 std::vector<double> dissipationOf(const PairTraversal& pairs, const Particles& particles);
 

@@ -104,7 +104,9 @@ HeatNetwork networkOf(const Material& material, const Particles& particles, cons
     HeatNetwork network;
     std::vector<double> temperature(particles.count());
     for (std::size_t p = 0; p < temperature.size(); ++p) temperature[p] = temperatureOf({material}, particles, p);
-    findNetwork(evaluator.preparePairs(particles), particles, obstacles, heat, temperature, 0.0, network);
+    const PairTraversal& pairs = evaluator.preparePairs(particles);
+    findFlows(pairs, particles, obstacles, heat, temperature, 0.0, network);
+    findLinks(pairs, particles, network);
     return network;
 }
 
@@ -296,7 +298,9 @@ TEST_CASE("Links conduct the same in both directions, between materials by the h
     ForceEvaluator evaluator({.materials = {good, poor}, .gravity = Vec3::Zero(), .obstacles = {}}, ForceMethod::grid);
     HeatNetwork network;
     const std::vector<double> temperature(particles.count(), 300.0);
-    findNetwork(evaluator.preparePairs(particles), particles, {}, {}, temperature, 0.0, network);
+    const PairTraversal& pairs = evaluator.preparePairs(particles);
+    findFlows(pairs, particles, {}, {}, temperature, 0.0, network);
+    findLinks(pairs, particles, network);
     std::size_t mixed = 0;
     for (std::uint32_t p = 0; p < particles.count(); ++p)
         for (std::size_t link = network.begin[p]; link < network.begin[p + 1]; ++link) {
@@ -362,8 +366,8 @@ TEST_CASE("An explicit exchange is the same with and without links", "[heat]") {
     const PairTraversal& pairs = evaluator.preparePairs(particles);
     HeatNetwork flows;
     findFlows(pairs, particles, {}, heat, temperature, 0.0, flows);
-    HeatNetwork network;
-    findNetwork(pairs, particles, {}, heat, temperature, 0.0, network);
+    HeatNetwork network = flows;
+    findLinks(pairs, particles, network);
     CHECK_FALSE(flows.hasLinks());
     REQUIRE(network.hasLinks());
     constexpr double kSeconds = 1.0;
