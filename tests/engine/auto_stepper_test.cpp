@@ -191,7 +191,7 @@ TEST_CASE("A smaller error takes more and smaller steps", "[auto-stepper]") {
     }
 }
 
-TEST_CASE("The choice does not depend on threads", "[auto-stepper]") {
+TEST_CASE("The choice does not depend on threads", "[auto-stepper][threads]") {
     Setup setup = fallingBlock(*materialPreset("liquid"), {11, 10, 10});  // more than one chunk of a sum
     setup.error = 30.0;                                        // any value does; with this one few steps are enough
     const auto begin = [&] { return afterFrames(setup, 8); };  // the first twin and what it has taught

@@ -50,7 +50,7 @@ TEST_CASE("a sum is rounded once, to the nearest double and to even", "[exact]")
     CHECK(std::isinf(sumOf({1.7e308, 1.7e308})));
 }
 
-TEST_CASE("integers are summed exactly, far more than carries wait for", "[exact]") {
+TEST_CASE("integers are summed exactly, far more than carries wait for", "[exact][threads]") {
     engine::ExactSum sum;
     std::int64_t expected = 0;
     std::mt19937_64 random(2);
@@ -75,7 +75,7 @@ TEST_CASE("integers are summed exactly, far more than carries wait for", "[exact
     CHECK(one.value() == 7.0);
 }
 
-TEST_CASE("a sum does not depend on the order and the division of its terms", "[exact]") {
+TEST_CASE("a sum does not depend on the order and the division of its terms", "[exact][threads]") {
     const int spread = GENERATE(3, 40, 900);
     std::vector<double> terms = randomTerms(5000, -spread, spread, 3);
     const double expected = sumOf(terms);

@@ -238,7 +238,7 @@ TEST_CASE("Runs in fields go on from checkpoints with the same bits", "[fields]"
     }
 }
 
-TEST_CASE("Runs in fields have the same bits on several ranks", "[fields][ranks]") {
+TEST_CASE("Runs in fields have the same bits on several ranks", "[fields][ranks][threads]") {
     for (const StepperKind stepper : kSteppers) {
         INFO(nameOf(stepper));
         const Setup setup = busyInFields(stepper);

@@ -75,7 +75,7 @@ TEST_CASE("The grid agrees with the reference for several materials", "[forces]"
     checkGridAgainstReference(field, particles);
 }
 
-TEST_CASE("Forces have the same bits whether mixtures are tabulated or not", "[forces]") {
+TEST_CASE("Forces have the same bits whether mixtures are tabulated or not", "[forces][threads]") {
     ForceField field;
     field.materials = {*materialPreset("liquid"), *materialPreset("solid"), *materialPreset("jam")};
     Particles particles = clouds::strewnUnequal(300, 1.0);
@@ -165,7 +165,7 @@ TEST_CASE("The forces are minus the gradient of the energy, on the grid and by e
         }
 }
 
-TEST_CASE("The same bits for any number of threads", "[forces]") {
+TEST_CASE("The same bits for any number of threads", "[forces][threads]") {
     const Particles particles = clouds::strewnUnequal(2000, 2.0);
     const ForceField field = clouds::forceFieldOf("solid");
     const auto expected = onGrid(field, particles);
@@ -201,7 +201,7 @@ TEST_CASE("Terms and cutoff are those that the materials need", "[forces]") {
     CHECK_FALSE(termsFor(both, equal).pair.equalReach);
 }
 
-TEST_CASE("A single change among the radii is found, wherever threads divide them", "[forces]") {
+TEST_CASE("A single change among the radii is found, wherever threads divide them", "[forces][threads]") {
     const ForceField field = clouds::forceFieldOf("solid");
     for (const std::size_t count : {2U, 3U, 200000U}) {
         for (const std::size_t smaller :

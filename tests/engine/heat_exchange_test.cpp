@@ -319,7 +319,7 @@ TEST_CASE("Links conduct the same in both directions, between materials by the h
     CHECK(mixed > 100);
 }
 
-TEST_CASE("A slab between two plates gets a straight profile, and passes the heat that it should", "[heat]") {
+TEST_CASE("A slab between two plates gets a straight profile, and passes the heat that it should", "[heat][threads]") {
     const Material material = conducting();
     constexpr std::size_t kLayers = 8;
     Particles particles = packedBlock(material, kLayers);

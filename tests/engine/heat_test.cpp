@@ -122,7 +122,7 @@ TEST_CASE("Stages go from the solid to the melt, by equal factors or differences
     CHECK_FALSE(isStage(melt, 21));
 }
 
-TEST_CASE("A block on a hot plate melts from below, and sets on a cold one", "[heat]") {
+TEST_CASE("A block on a hot plate melts from below, and sets on a cold one", "[heat][threads]") {
     Setup setup = blockOnPlate(StepperKind::velocityVerlet, 345.0, 450.0);
     Simulation simulation = start(setup);
     advanceFrames(simulation, 0, 60);
@@ -252,7 +252,7 @@ TEST_CASE("A run with heat has the same bits on any threads, ranks and after a r
         }
 }
 
-TEST_CASE("A checkpoint of a run with heat is refused where it has none", "[heat]") {
+TEST_CASE("A checkpoint of a run with heat is refused where it has none", "[heat][threads]") {
     Setup setup = blockOnPlate(StepperKind::velocityVerlet, 345.0, 450.0);
     Simulation simulation = start(setup);
     advanceFrames(simulation, 0, 1);

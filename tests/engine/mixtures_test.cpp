@@ -116,7 +116,7 @@ Particles lonePairs(std::size_t materialCount, double distanceInRadii) {
 }  // namespace
 
 TEST_CASE("Forces of mixtures agree with the reference, and have the bits of the scalar kernel everywhere",
-          "[mixtures]") {
+          "[mixtures][threads]") {
     for (const Mixture& m : mixtures()) {
         INFO(m.name);
         REQUIRE_FALSE(termsFor(m.field, m.particles).uniform());
@@ -211,7 +211,7 @@ TEST_CASE("No rounding lets a pair of any radii act at its cutoff", "[mixtures]"
     }
 }
 
-TEST_CASE("Mixtures have the same bits for any number of threads", "[mixtures]") {
+TEST_CASE("Mixtures have the same bits for any number of threads", "[mixtures][threads]") {
     ForceField field;
     field.materials = materialsBetween("liquid", "mud", 16);
     Particles particles = clouds::strewnUnequal(2000, 2.0);
@@ -227,7 +227,7 @@ TEST_CASE("Mixtures have the same bits for any number of threads", "[mixtures]")
     }
 }
 
-TEST_CASE("Coincident particles of unlike kinds are separated in float as in double", "[mixtures]") {
+TEST_CASE("Coincident particles of unlike kinds are separated in float as in double", "[mixtures][threads]") {
     for (const char* last : {"solid", "mud"}) {
         ForceField field;
         field.materials = materialsBetween("liquid", last, 3);

@@ -172,7 +172,7 @@ TEST_CASE("Runs with an emitter in motion go on from checkpoints with the same b
     }
 }
 
-TEST_CASE("Runs with an emitter in motion have the same bits on several ranks", "[emitters][ranks]") {
+TEST_CASE("Runs with an emitter in motion have the same bits on several ranks", "[emitters][ranks][threads]") {
     const Setup setup = busyWithMotion(StepperKind::velocityVerlet);
     const std::string expected = endOf(setup, 5);
     std::string end;

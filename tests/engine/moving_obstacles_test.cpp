@@ -276,7 +276,7 @@ TEST_CASE("A paddle that spins at any speed is entered by nothing", "[motion]") 
         }
 }
 
-TEST_CASE("Near a fast paddle a resume before any step has the same bits", "[motion]") {
+TEST_CASE("Near a fast paddle a resume before any step has the same bits", "[motion][threads]") {
     // A resumed run does not know how far particles are from obstacles, and looks at all.
     Obstacles obstacles = elastic(Box{Vec3(-1.5, -1.5, -0.1), Vec3(1.5, 1.5, 0.1)}, turning(Vec3(0, 12, 0)));
     obstacles.surfaces[0].friction = 0.3;

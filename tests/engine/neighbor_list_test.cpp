@@ -238,7 +238,7 @@ TEST_CASE("A list built again is that of the new positions", "[neighbor-list]") 
     }
 }
 
-TEST_CASE("The same rows for any number of threads", "[neighbor-list]") {
+TEST_CASE("The same rows for any number of threads", "[neighbor-list][threads]") {
     const std::vector<Vec3> positions = clouds::strewn(3000, 2.5).position;
     NeighborList expected;
     build(expected, positions, {}, kListCutoff, kListSkin);

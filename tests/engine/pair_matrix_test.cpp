@@ -187,7 +187,7 @@ TEST_CASE("The two entries of a pair are equal bit for bit", "[pair-matrix]") {
     }
 }
 
-TEST_CASE("Coincident particles leave the matrix symmetric and add nothing to it", "[pair-matrix]") {
+TEST_CASE("Coincident particles leave the matrix symmetric and add nothing to it", "[pair-matrix][threads]") {
     Particles particles = clouds::strewn(200, 0.7);
     particles.position[150] = particles.position[20];
     for (const auto& [preset, precision] : {std::pair{"solid", Precision::doubles},
@@ -302,7 +302,7 @@ TEST_CASE("Systems of no particles, of one and with a right-hand side of zero", 
     CHECK(x == std::vector<Vec3>(some.count(), Vec3::Zero()));
 }
 
-TEST_CASE("A solution has the same bits for any number of threads", "[pair-matrix]") {
+TEST_CASE("A solution has the same bits for any number of threads", "[pair-matrix][threads]") {
     const ForceField field = clouds::forceFieldOf("liquid");
     const Particles particles = clouds::strewnUnequal(3000, 2.2);
     const auto solution = [&] {

@@ -122,7 +122,7 @@ void checkDivisions(const Setup& setup) {
 
 }  // namespace
 
-TEST_CASE("A run on several ranks ends in the state of a run in one process", "[ranks]") {
+TEST_CASE("A run on several ranks ends in the state of a run in one process", "[ranks][threads]") {
     for (const StepperKind stepper : kSteppers) {
         INFO(nameOf(stepper));
         checkDivisions(busy(stepper));
@@ -150,7 +150,7 @@ TEST_CASE("Mixtures of many sizes have the same bits on any ranks, in both preci
         }
 }
 
-TEST_CASE("A run goes on from a checkpoint on any number of ranks", "[ranks]") {
+TEST_CASE("A run goes on from a checkpoint on any number of ranks", "[ranks][threads]") {
     for (const StepperKind stepper : {StepperKind::symplecticEuler, StepperKind::leapfrog, StepperKind::automatic}) {
         INFO(nameOf(stepper));
         const Setup setup = busy(stepper);
@@ -171,7 +171,7 @@ TEST_CASE("A run goes on from a checkpoint on any number of ranks", "[ranks]") {
     }
 }
 
-TEST_CASE("An unstable run ends on all ranks with the message of a run in one process", "[ranks]") {
+TEST_CASE("An unstable run ends on all ranks with the message of a run in one process", "[ranks][threads]") {
     Setup setup = busy(StepperKind::symplecticEuler);
     setup.materials[0].damping = 1e9;
     setup.initial.velocity[17] = Vec3(1e30, 0, 0);

@@ -90,7 +90,7 @@ TEST_CASE("Emitted and removed particles account for all, and none stays outside
     }
 }
 
-TEST_CASE("Removal keeps a run's bits for any number of threads and after a resume", "[removal]") {
+TEST_CASE("Removal keeps a run's bits for any number of threads and after a resume", "[removal][threads]") {
     for (const StepperKind stepper : kSteppers) {
         const Setup setup = overflowing(stepper);
         Simulation whole = start(setup);

@@ -35,7 +35,7 @@ std::string hashAfter(const Setup& setup, double time) {
 
 }  // namespace
 
-TEST_CASE("A run has the same hash for 1, 2, 3 and 8 threads", "[simulation]") {
+TEST_CASE("A run has the same hash for 1, 2, 3 and 8 threads", "[simulation][threads]") {
     for (const StepperKind stepper : kSteppers) {
         const Setup setup = runs::busyScene(stepper);
         const std::string expected = hashAfter(setup, 0.12);
@@ -72,7 +72,7 @@ TEST_CASE("Steps are announced, trial runs' too, and can be stopped", "[simulati
     }
 }
 
-TEST_CASE("Obstacles that threads share out give the same bits for any number of them", "[simulation]") {
+TEST_CASE("Obstacles that threads share out give the same bits for any number of them", "[simulation][threads]") {
     for (const Precision precision : {Precision::doubles, Precision::singles}) {
         Setup setup = crowdAmongObstacles();
         setup.precision = precision;

@@ -112,7 +112,7 @@ TEST_CASE("rows of particles of any sizes have every pair that acts, and few oth
     }
 }
 
-TEST_CASE("a list of many sizes is the same for any number of threads and after a coarser one") {
+TEST_CASE("a list of many sizes is the same for any number of threads and after a coarser one", "[threads]") {
     const Particles particles = mixture(2000, 1.0, 0.3, 0.05);
     const NeighborList expected = listOf(particles);
     for (const std::size_t threads : {std::size_t{1}, std::size_t{2}, std::size_t{5}}) {

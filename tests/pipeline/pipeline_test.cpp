@@ -91,7 +91,7 @@ std::map<std::string, Bytes> picturesIn(const ScratchFolder& folder) {
 
 }  // namespace
 
-TEST_CASE("A run on several threads leaves the files of a run on one", "[pipeline]") {
+TEST_CASE("A run on several threads leaves the files of a run on one", "[pipeline][threads]") {
     const std::string style = GENERATE("spheres", "metaballs");
     INFO(style);
     const scenes::Scene scene = sceneOf(style);
