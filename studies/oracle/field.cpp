@@ -148,6 +148,12 @@ double fieldAt(const render::View& view, const dvec3& point) {
     return sum;
 }
 
+double fieldAt(const Scene& scene, const dvec3& point) {
+    double sum = 0.0;
+    for (const Ball& ball : scene.balls) sum += kernel(ball, point);
+    return sum;
+}
+
 double fieldAt(const Scene& scene, const Indices& balls, const dvec3& point) {
     double sum = 0.0;
     for (const std::uint32_t k : balls) sum += kernel(scene.balls[k], point);

@@ -85,8 +85,10 @@ Ray pixelRay(const render::View& view, render::PictureSize size, double px, doub
 Hit trace(const render::View& view, const Ray& ray);
 Hit trace(const Scene& scene, const Ray& ray);
 
-/// The metaball field of a view at a point. The metaball surface is where it equals fieldThreshold().
+/// The metaball field of a view at a point. The metaball surface is where it equals fieldThreshold(). With a view in
+/// place of a scene, every ball is placed anew, which takes far longer.
 double fieldAt(const render::View& view, const dvec3& point);
+double fieldAt(const Scene& scene, const dvec3& point);
 /// The contributions of some balls to the metaball field at a point.
 double fieldAt(const Scene& scene, const Indices& balls, const dvec3& point);
 double fieldThreshold(const render::View& view);

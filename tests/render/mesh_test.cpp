@@ -301,7 +301,8 @@ TEST_CASE("Blocks have the field of all balls", "[mesh]") {
         const render::View view = blobs(200, skin);
         const double cell = 0.37 * oracle::meanRadius(view);
         const render::BallBlocks balls(view, cell);
-        const double most = oracle::fieldAt(view, dvec3(view.particles[0].center));
+        const oracle::Scene scene(view);
+        const double most = oracle::fieldAt(scene, dvec3(view.particles[0].center));
         REQUIRE(balls.blocks().size() > 50);
         for (std::size_t k = 0; k < balls.blocks().size(); k += 7) {
             render::BlockNodes field;
@@ -310,7 +311,7 @@ TEST_CASE("Blocks have the field of all balls", "[mesh]") {
                 const glm::ivec3 at = 8 * balls.blocks()[k] + glm::ivec3(node / 64, node / 8 % 8, node % 8);
                 // Single precision: a sum of some tens of kernels, each off by some 1e-6.
                 CHECK(double(field[static_cast<std::size_t>(node)]) ==
-                      Approx(oracle::fieldAt(view, cell * dvec3(at))).margin(2e-5 * std::max(most, 1.0)));
+                      Approx(oracle::fieldAt(scene, cell * dvec3(at))).margin(2e-5 * std::max(most, 1.0)));
             }
         }
     }

@@ -104,10 +104,11 @@ TEST_CASE("OpenVDB reads a field that is the oracle's everywhere", "[mesh]") {
         }();
         REQUIRE(around.volume() > 10000);
         const auto values = grid->getConstAccessor();
+        const oracle::Scene scene(view);
         std::size_t active = 0;
         for (auto node = around.begin(); node; ++node) {
             const openvdb::Vec3d at = grid->indexToWorld(*node);
-            const double expected = oracle::fieldAt(view, glm::dvec3(at.x(), at.y(), at.z()) - kOrigin);
+            const double expected = oracle::fieldAt(scene, glm::dvec3(at.x(), at.y(), at.z()) - kOrigin);
             // Single precision: a sum of some tens of kernels, each off by some 1e-6.
             REQUIRE(double(values.getValue(*node)) == Approx(expected).margin(1e-4));
             REQUIRE(values.isValueOn(*node) == (values.getValue(*node) > 0.0F));

@@ -103,7 +103,7 @@ TEST_CASE("Rays of any direction cross the surface of metaballs where the oracle
         for (int k = 0; k < 400; ++k) {
             const glm::vec3 from(3.0F * uniform(), 1.0F + 2.0F * uniform(), 3.0F * uniform());
             const glm::vec3 direction = normalize(glm::vec3(1.2F * uniform(), 0.9F, 1.2F * uniform()) - from);
-            if (oracle::fieldAt(view, oracle::dvec3(from)) > 0.0) continue;
+            if (oracle::fieldAt(scene, oracle::dvec3(from)) > 0.0) continue;
             const glm::vec3 origin = from - view.camera.eye;
             render::SurfacePoint found =
                 render::findCrossing(field, {origin, direction, 0.0F, render::kNoCrossing}, false);
