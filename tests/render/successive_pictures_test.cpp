@@ -20,7 +20,7 @@ using render::Quality;
 
 namespace {
 
-constexpr render::PictureSize kSize{230, 130};
+constexpr render::PictureSize kSize{118, 66};
 
 struct Change {
     std::string name;

@@ -128,7 +128,7 @@ TEST_CASE("A study of pictures that is interrupted leaves the rows that it has r
 
 TEST_CASE("The study of pictures writes its table, plots and a page, and leaves no video behind", "[tools]") {
     const program::Folder folder;
-    const std::string command = "study pictures --particles 100 200 --size 256x144 --quick --threads 1";
+    const std::string command = "study pictures --particles 100 --size 256x144 --quick --threads 1";
     const auto outcome = run(command + " -o " + (folder / "pictures").string());
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
@@ -137,11 +137,11 @@ TEST_CASE("The study of pictures writes its table, plots and a page, and leaves 
     CHECK(outcome.out.find("\nOpenGL is ") != std::string::npos);
 #else
     constexpr int kRenderers = 1;
-    CHECK(program::lineCount(outcome.err) == 1 + 12);  // the warning and the rows
+    CHECK(program::lineCount(outcome.err) == 1 + 6);  // the warning and the rows
     CHECK(outcome.err.find("built without OpenGL; the renderer on the CPU is measured alone\n") != std::string::npos);
 #endif
     CHECK(program::lineCount(program::textOf(folder / "pictures" / "pictures.csv")) ==
-          1 + 2 * 2 * 3 * kRenderers);  // the head; two styles, two numbers of particles, three qualities
+          1 + 2 * 3 * kRenderers);  // the head; two styles, three qualities
     for (const char* name : {"times.svg", "errors.svg"})
         CHECK(program::textOf(folder / "pictures" / name).rfind("<?xml", 0) == 0);
     CHECK(program::textOf(folder / "pictures" / "index.html").find(command) != std::string::npos);
