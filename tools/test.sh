@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the packages that are missing, builds with warnings as errors, and runs the tests: all suites under
 # AddressSanitizer and UndefinedBehaviorSanitizer; as users build the program, those whose results may depend on optimization,
-# time or memory; those of the engine and of the render loop's pipeline under ThreadSanitizer; the fuzzers, half a minute each.
+# time or memory, and those with the tag [long]; those of several threads under ThreadSanitizer; the fuzzers, half a minute each.
 # With the name of a CMake preset (release, debug, asan-ubsan or tsan) it runs all tests of that preset instead. The last lines
 # name the tests that this machine could not run, and why.
 set -euo pipefail
@@ -35,11 +35,11 @@ if [ $# -gt 0 ]; then
     exit
 fi
 
-build release globular globular-mpi {engine,golden,memory,mesh,render,scenes}_tests
+build release globular globular-mpi {engine,golden,memory,mesh,render,scenes,studies}_tests
 # Processes that wait for each other take four times as long beside a build.
 ctest --preset release -R '^mpi_tests$'
 # The kill harness sleeps most of the time: beside the next build.
-ctest --preset release --parallel 2 -R '^(engine|golden|memory|mesh_long|render_long|scenes_long|kill|hard_cases|slurm|parallel|openjd)_tests$' &
+ctest --preset release --parallel 2 -R '^(engine|golden|memory|(engine|mesh|render|scenes|studies)_long|kill|hard_cases|slurm|parallel|openjd)_tests$' &
 build tsan
 wait $!
 # In parallel runs sanitized suites keep to a core each: this one, too, though it is alone. Beside the build, because beside

@@ -100,7 +100,7 @@ TEST_CASE("Honey is stepped implicitly, plain liquid is not", "[auto-stepper]") 
     CHECK(honey.cache->toleratedAcceleration > 0.0);
 }
 
-TEST_CASE("The error that is wanted is met, as far as the motion can be followed", "[auto-stepper]") {
+TEST_CASE("The error that is wanted is met, as far as the motion can be followed", "[auto-stepper][long]") {
     for (const char* preset : {"liquid", "powder", "oil"})
         for (const double wanted : {0.1, 0.02}) {
             Setup setup = fallingBlock(*materialPreset(preset), {5, 5, 5});

@@ -52,7 +52,7 @@ double kineticEnergy(const Simulation& simulation) {
 
 }  // namespace
 
-TEST_CASE("Both implicit steppers are of order 2 on liquid, solid, powder and honey", "[implicit-step]") {
+TEST_CASE("Both implicit steppers are of order 2 on liquid, solid, powder and honey", "[implicit-step][long]") {
     for (const Material& material :
          {*materialPreset("liquid"), *materialPreset("solid"), *materialPreset("powder"), runs::honey()})
         for (const StepperKind stepper : kImplicit) {

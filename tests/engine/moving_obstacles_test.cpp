@@ -258,7 +258,7 @@ TEST_CASE("A thin blade at 100 m/s lets nothing through", "[motion]") {
     }
 }
 
-TEST_CASE("A paddle that spins at any speed is entered by nothing", "[motion]") {
+TEST_CASE("A paddle that spins at any speed is entered by nothing", "[motion][long]") {
     for (const double spin : {6.0, 60.0, 600.0})
         for (const StepperKind stepper : {StepperKind::velocityVerlet, StepperKind::automatic}) {
             Setup setup = stirred(stepper);

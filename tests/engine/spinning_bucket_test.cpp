@@ -94,7 +94,7 @@ double fittedSlope(const std::vector<std::pair<double, double>>& points) {
 
 }  // namespace
 
-TEST_CASE("Liquid in a spinning bucket turns with it and stands as a paraboloid", "[motion]") {
+TEST_CASE("Liquid in a spinning bucket turns with it and stands as a paraboloid", "[motion][long]") {
     Simulation simulation = start(bucketOfLiquid());
     advance(simulation, kEnd);
     constexpr double kSpin = 2.0 * std::numbers::pi * kTurns;

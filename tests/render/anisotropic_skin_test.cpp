@@ -138,7 +138,8 @@ TEST_CASE("In an anisotropic skin a sheet of one layer has no holes and is about
     }
 }
 
-TEST_CASE("A level pool in an anisotropic skin keeps its volume, and is less than half as rough as in a smooth one") {
+TEST_CASE("A level pool in an anisotropic skin keeps its volume, and is less than half as rough as in a smooth one",
+          "[long]") {
     render::View view = anisotropic({}, 3.0F);
     const render::View pool = studies::levelPool(view);
     const double volume = studies::fieldVolume(pool, 0.2) / static_cast<double>(pool.particles.size());

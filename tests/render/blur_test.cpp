@@ -362,7 +362,7 @@ TEST_CASE("Blurred pictures have the same bits for any number of threads, and le
     }
 }
 
-TEST_CASE("OpenGL blurs as the CPU does", "[blur][opengl]") {
+TEST_CASE("OpenGL blurs as the CPU does", "[blur][opengl][long]") {
     if (renderers().size() < 2) {
         SUCCEED("this build has no OpenGL");
         return;

@@ -336,7 +336,7 @@ TEST_CASE("Metaballs cast the oracle's shadows up to the depth map's resolution"
     CHECK(compare(shaded, drawn(by, view, kSize, Quality::draft), 3).share > 0.05);  // counted once: 0.095
 }
 
-TEST_CASE("Better quality is nearer to the exact metaballs") {
+TEST_CASE("Better quality is nearer to the exact metaballs", "[long]") {
     const By by = GENERATE(from_range(renderers()));
     CAPTURE(by);
     const render::View view = blobs(150);

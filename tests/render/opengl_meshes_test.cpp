@@ -38,7 +38,7 @@ TEST_CASE("OpenGL draws meshes among particles as the oracle does", "[opengl][me
     }
 }
 
-TEST_CASE("OpenGL antialiases and shadows meshes as the CPU does", "[opengl][meshes]") {
+TEST_CASE("OpenGL antialiases and shadows meshes as the CPU does", "[opengl][meshes][long]") {
     for (const Quality quality : {Quality::draft, Quality::normal, Quality::final}) {
         for (const float softness : {0.0F, 1.0F}) {
             render::View view = cloudWithMeshes(60);

@@ -104,7 +104,7 @@ TEST_CASE("prints the pictures that EGL draws, for the test of child processes",
     std::cout << kMark << pictureLine(context) << std::endl;
 }
 
-TEST_CASE("OpenGL draws the same bytes in every process with any number of threads", "[opengl]") {
+TEST_CASE("OpenGL draws the same bytes in every process with any number of threads", "[opengl][long]") {
     const std::string expected = std::string(kMark) + pictureLine(openGlContext());
     // Shaders optimized as users have them, whatever the tests are run with.
     CHECK(lineOfChild("[.child-osmesa]", {"LP_NUM_THREADS=0", "GALLIVM_PERF="}) == expected);

@@ -170,7 +170,7 @@ TEST_CASE("Terms of the whole picture, and tiles that show less, have their own 
         CHECK(std::find(objects.begin(), objects.end(), flat) == objects.end());
 }
 
-TEST_CASE("OpenGL draws a view with every term at once", "[opengl]") {
+TEST_CASE("OpenGL draws a view with every term at once", "[opengl][long]") {
     // Shaders may have 32 samplers, also on graphics cards.
     render::View view = cloud(30);
     for (const Term& term : terms()) term.add(view);
@@ -187,7 +187,7 @@ TEST_CASE("OpenGL draws a view with every term at once", "[opengl]") {
     }
 }
 
-TEST_CASE("OpenGL with few varyings draws the same picture", "[opengl]") {
+TEST_CASE("OpenGL with few varyings draws the same picture", "[opengl][long]") {
     render::View view = cloudWithObstacles(60);
     view.light.shadows = true;
     view.ambient.occlusion = 0.8F;

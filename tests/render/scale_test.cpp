@@ -58,7 +58,7 @@ std::vector<render::View> viewsFor(pictures::By by) {
 }  // namespace
 
 // A multiplication by a power of two rounds nothing.
-TEST_CASE("a view scaled by a power of two gives the same bytes") {
+TEST_CASE("a view scaled by a power of two gives the same bytes", "[long]") {
     const pictures::By by = GENERATE(from_range(pictures::renderers()));
     CAPTURE(by);
     const auto renderer = makeRenderer(by, kSize, render::Quality::normal);

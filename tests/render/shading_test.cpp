@@ -53,7 +53,7 @@ render::View denseCloud(Style style) {
 
 }  // namespace
 
-TEST_CASE("Each term of the shading is the oracle's, and changes the picture") {
+TEST_CASE("Each term of the shading is the oracle's, and changes the picture", "[long]") {
     const By by = GENERATE(from_range(renderers()));
     CAPTURE(by);
     for (const Style style : {Style::spheres, Style::metaballs}) {
@@ -140,7 +140,7 @@ TEST_CASE("Soft shadows of metaballs are the oracle's up to the depth map's texe
     CHECK(compare(drawn(by, view, kSize, Quality::draft), drawn(by, sharp, kSize, Quality::draft), 12).share > 0.02);
 }
 
-TEST_CASE("Better quality is nearer to the exact picture with all terms") {
+TEST_CASE("Better quality is nearer to the exact picture with all terms", "[long]") {
     render::View view = cloud(150);
     view.style = Style::metaballs;
     view.light.shadows = true;

@@ -103,7 +103,7 @@ TEST_CASE("Shadows are shadows: without them the picture is another") {
     CHECK(compare(lit, drawn(by, view, kSize, Quality::draft), kStep).share > 0.04);  // counted once: 0.075
 }
 
-TEST_CASE("Better quality is nearer to the exact picture") {
+TEST_CASE("Better quality is nearer to the exact picture", "[long]") {
     const By by = GENERATE(from_range(renderers()));
     CAPTURE(by);
     render::View view = cloudWithObstacles(150);

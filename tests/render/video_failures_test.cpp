@@ -96,7 +96,7 @@ TEST_CASE("An ffmpeg that hangs is killed") {
     CHECK_FALSE(fs::exists(folder.file("a.mp4")));
 }
 
-TEST_CASE("An ffmpeg that works longer than the timeout is waited for") {
+TEST_CASE("An ffmpeg that works longer than the timeout is waited for", "[long]") {
     const Folder folder;
     render::VideoOptions options{folder.file("a.mp4"), {640, 360}};
     // Ten times as long as the steps of the work, so that a busy machine does not make one step seem none.

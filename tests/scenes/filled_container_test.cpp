@@ -55,7 +55,7 @@ Outcome outcomeOf(std::string_view preset, double radius, const scenes::Override
 
 }  // namespace
 
-TEST_CASE("a filled container holds every preset at any radius", "[walls]") {
+TEST_CASE("a filled container holds every preset at any radius", "[walls][long]") {
     const auto holds = [](const engine::Material& preset, double share) {
         const Outcome outcome = outcomeOf(preset.name, share * preset.radius);
         INFO(preset.name << " at " << share << " of its radius: deepest " << outcome.deepest);

@@ -136,7 +136,7 @@ double levelOf(const engine::Particles& particles) {
 
 }  // namespace
 
-TEST_CASE("a dam breaks alike at any resolution", "[settling]") {
+TEST_CASE("a dam breaks alike at any resolution", "[settling][long]") {
     const DamMotion coarse = motionOf(kDam, {});
     for (const char* resolution : {"resolution=2", "resolution=4"}) {
         INFO(resolution);
@@ -150,7 +150,7 @@ TEST_CASE("a dam breaks alike at any resolution", "[settling]") {
     CHECK(differences(coarse, motionOf(given, {"resolution=2"})) != "");
 }
 
-TEST_CASE("a column sinks as far as predicted", "[settling]") {
+TEST_CASE("a column sinks as far as predicted", "[settling][long]") {
     for (const auto& [preset, compression] : std::map<std::string, double>{{"liquid", 0.1}, {"oil", 0.2}}) {
         const scenes::Scene scene = sceneOf(columnText(preset, compression));
         const scenes::BodyColumn& column = scene.bodyColumns.at(0);

@@ -110,7 +110,7 @@ TEST_CASE("The error of a picture is small for the right view and large for anot
     CHECK(wrong.rmse > 2.0 * right.rmse);
 }
 
-TEST_CASE("Better quality is steadier under a camera that moves slowly", "[pictures]") {
+TEST_CASE("Better quality is steadier under a camera that moves slowly", "[pictures][long]") {
     const auto context = openGl();
     const std::size_t rendererCount = context ? 2 : 1;
     FlickerSettings settings;
@@ -139,7 +139,7 @@ TEST_CASE("Better quality is steadier under a camera that moves slowly", "[pictu
     CHECK(std::count(csv.begin(), csv.end(), '\n') == static_cast<std::ptrdiff_t>(1 + all.size()));
 }
 
-TEST_CASE("Looks are measured after the dam break's own, by every renderer", "[pictures]") {
+TEST_CASE("Looks are measured after the dam break's own, by every renderer", "[pictures][long]") {
     const auto context = openGl();
     PictureSettings settings;
     settings.particles = {800};
@@ -167,7 +167,7 @@ TEST_CASE("Looks are measured after the dam break's own, by every renderer", "[p
     CHECK(std::count(csv.begin(), csv.end(), '\n') == static_cast<std::ptrdiff_t>(1 + rows.size()));
 }
 
-TEST_CASE("A single particle keeps its sphere's volume, and a pool keeps its own with smoothing", "[pictures]") {
+TEST_CASE("A single particle keeps its sphere's volume, and a pool keeps its own with smoothing", "[pictures][long]") {
     render::View view;
     view.style = Style::metaballs;
     view.particles.push_back({glm::vec3(0.3F, 1.0F, -0.2F), 0.2F, glm::vec3(0.8F)});
@@ -201,7 +201,7 @@ TEST_CASE("A single particle keeps its sphere's volume, and a pool keeps its own
     CHECK(std::count(csv.begin(), csv.end(), '\n') == 4);
 }
 
-TEST_CASE("A small study has a row for each style, number, size, quality and renderer", "[pictures]") {
+TEST_CASE("A small study has a row for each style, number, size, quality and renderer", "[pictures][long]") {
     const auto context = openGl();
     PictureSettings settings;
     settings.particles = {500, 100};
