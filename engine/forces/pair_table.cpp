@@ -2,6 +2,8 @@
 #include "engine/forces/pair_table.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
 #include "engine/forces/force_field.h"
@@ -10,16 +12,16 @@ namespace engine {
 namespace {
 
 template <class T>
-PairTableRow<T> rowOf(const Material& material, double restLength, bool hasDampingReach) {
+PairTableRow<T> rowOf(const Material& material, double restLength) {
     const PairConstants<T> c = constantsAt<T>(material, restLength);
     return {.b1 = c.b1,
             .bd = c.bd,
-            .coreSq = c.coreSq,
-            .outerInverseSq = hasDampingReach ? c.inverseDampingSq : c.inverseReachSq,
             .inverseReachSq = c.inverseReachSq,
             .friction = c.friction,
             .reach = std::sqrt(c.reachSq),
-            .halfSlope = T(0.5) * pairCoefficient<kConservative>(c.coreSq, T(0), c)};
+            .halfSlope = T(0.5) * pairCoefficient<kConservative>(c.coreSq, T(0), c),
+            .coreSq = c.coreSq,
+            .inverseDampingSq = c.inverseDampingSq};
 }
 
 template <class T>
@@ -32,22 +34,24 @@ PullTableRow<T> pullRowOf(const Material& material, double restLength) {
 }
 
 template <class T>
-PairTableIn<T> tableOf(const std::vector<Material>& mixtures, double restLength, bool hasDampingReach) {
+PairTableIn<T> tableOf(const std::vector<Material>& mixtures, double restLength) {
     PairTableIn<T> table;
     table.inverseRestSq = constantsAt<T>(mixtures.front(), restLength).inverseRestSq;
     for (const Material& material : mixtures) {
-        table.rows.push_back(rowOf<T>(material, restLength, hasDampingReach));
+        table.rows.push_back(rowOf<T>(material, restLength));
         table.pullRows.push_back(pullRowOf<T>(material, restLength));
     }
     for (std::size_t k = 0; k < std::min(table.rows.size(), table.columns[0].size()); ++k) {
-        const PairTableRow<T>& row = table.rows[k];
-        const std::array<T, 8> fields = {row.b1,       row.bd,    row.coreSq,   row.outerInverseSq, row.inverseReachSq,
-                                         row.friction, row.reach, row.halfSlope};
+        const auto fields = std::bit_cast<std::array<T, 8>>(table.rows[k]);
+        const auto pullFields = std::bit_cast<std::array<T, 4>>(table.pullRows[k]);
         for (std::size_t field = 0; field < fields.size(); ++field) table.columns[field][k] = fields[field];
-        const PullTableRow<T>& pull = table.pullRows[k];
-        const std::array<T, 4> pullFields = {pull.pull, pull.pullReachSq, pull.inversePullWidth, pull.inverseRestSq};
-        for (std::size_t field = 0; field < pullFields.size(); ++field) table.pullColumns[field][k] = pullFields[field];
+        for (std::size_t field = 0; field < pullFields.size(); ++field)
+            table.columns[fields.size() + field][k] = pullFields[field];
     }
+    const PairTableRow<T>& first = table.rows.front();
+    table.rangesDiffer = std::ranges::any_of(table.rows, [&](const PairTableRow<T>& row) {
+        return row.coreSq != first.coreSq || row.inverseDampingSq != first.inverseDampingSq;
+    });
     return table;
 }
 
@@ -60,21 +64,19 @@ PairTable::PairTable(const std::vector<Material>& materials) {
     materialCount = materials.size();
 }
 
-void PairTable::fill(PairTerms needed, double wanted) {
+void PairTable::fill(double wanted) {
     if (wanted == restLength) return;
     restLength = wanted;
     constants.clear();
-    const bool isDamping = withTerms(needed, []<PairTerms terms>() { return hasDampingReach(terms); });
     for (const Material& material : mixtures) constants.push_back(constantsAt<double>(material, restLength));
     if (mixtures.empty()) return;
-    doubles = tableOf<double>(mixtures, restLength, isDamping);
-    singles = tableOf<float>(mixtures, restLength, isDamping);
+    doubles = tableOf<double>(mixtures, restLength);
+    singles = tableOf<float>(mixtures, restLength);
 }
 
 PairConstants<double> PairTable::constantsOf(const std::vector<Material>& materials, std::uint32_t p,
                                              std::uint32_t i) const {
-    if (oneLaw) return constants.front();
-    if (!mixtures.empty()) return constants[p * materialCount + i];
+    if (const PairConstants<double>* entry = entryOf(p, i)) return *entry;
     return constantsAt<double>(tabulated(materials[p], materials[i]), restLength);
 }
 

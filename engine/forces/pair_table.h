@@ -12,18 +12,18 @@
 
 namespace engine {
 
-/// What SIMD kernels read for a pair of materials, in their precision, in blocks of 128 bits. Most kernels need only
-/// the first four numbers.
+/// What SIMD kernels read for a pair of materials, in their precision, in blocks of four numbers: first those by which
+/// most materials differ, then those that many have in common.
 template <class T>
 struct alignas(8 * sizeof(T)) PairTableRow {
     T b1;
     T bd;
-    T coreSq;
-    T outerInverseSq;  ///< 1/S^2 for kernels where hasDampingReach(), else 1/R^2
     T inverseReachSq;
     T friction;
-    T reach;      ///< R
-    T halfSlope;  ///< half the coefficient of P inside the core distance, N/m
+    T reach;      ///< R, for energies
+    T halfSlope;  ///< half the coefficient of P inside the core distance, N/m; for energies
+    T coreSq;
+    T inverseDampingSq;
 };
 
 /// What SIMD kernels with cohesion read besides; the rest length is another for each pair of materials there.
@@ -78,9 +78,9 @@ struct PairTableIn {
     std::vector<PairTableRow<T>> rows;
     std::vector<PullTableRow<T>> pullRows;
     T inverseRestSq = T(0);  ///< 1/D0^2 of every pair, where all have one rest length
-    /// The first rows by columns, in the order of the fields of a row: as many as a SIMD register holds.
-    std::array<std::array<T, 64 / sizeof(T)>, 8> columns = {};
-    std::array<std::array<T, 64 / sizeof(T)>, 4> pullColumns = {};
+    /// The first rows by columns, as many as a SIMD register holds: the fields of `rows`, then those of `pullRows`.
+    std::array<std::array<T, 64 / sizeof(T)>, 12> columns = {};
+    bool rangesDiffer = false;  ///< whether pairs of materials differ in core distance or reach of the damping
 };
 
 /// The table, with an entry for every material and every other; symmetric bit for bit. It is empty for more than
@@ -97,9 +97,9 @@ struct PairTable {
     PairTable() = default;
     explicit PairTable(const std::vector<Material>& materials);
 
-    /// Computes the entries for kernels with the terms that all materials need, unless it has done so before.
+    /// Computes the entries unless it has done so before.
     /// @param wanted  rest length of every pair as in constantsAt()
-    void fill(PairTerms terms, double wanted);
+    void fill(double wanted);
 
     template <class T>
     const PairTableIn<T>& in() const {
@@ -109,7 +109,13 @@ struct PairTable {
             return singles;
     }
 
-    /// The entry of two materials, which is computed anew where there is no table.
+    /// The entry of two materials; null where there is no table.
+    const PairConstants<double>* entryOf(std::uint32_t p, std::uint32_t i) const {
+        if (oneLaw) return &constants.front();
+        return mixtures.empty() ? nullptr : &constants[p * materialCount + i];
+    }
+
+    /// The same, computed anew where there is no table.
     PairConstants<double> constantsOf(const std::vector<Material>& materials, std::uint32_t p, std::uint32_t i) const;
 };
 

@@ -122,7 +122,7 @@ void PairTraversal::prepare(const ForceField& field, const Particles& particles,
     if (list.count() == 0) return;
     const bool isFloat = hasLanes() && precision == Precision::singles;
     unit = isFloat ? list.reach() / kUnits : 1.0;
-    table.fill(terms.pair, terms.oneRadius ? 2.0 * terms.largestRadius : 0.0);
+    table.fill(terms.oneRadius ? 2.0 * terms.largestRadius : 0.0);
     if (!isFloat) return packParticles(particles, velocities);
     packFloats(list, listed(particles), listedVelocities(velocities), unit, packedFloat);
 }

@@ -109,7 +109,7 @@ HWY_FLATTEN void sumLanes(const PairTraversal& pairs, const PairSums& wanted, st
         const auto traits = kLoadsAhead ? traitsAhead : laws.traits(entry);
         if constexpr (kLoadsAhead) traitsAhead = laws.traits(entry + kClusterSize);
         if constexpr (kLoadsAhead) ahead = source.template load<kTerms.damping>(entry + kClusterSize);
-        const Law<T, variant>& law = laws.of(traits);
+        const Law<T, variant>& law = laws.of(entry, traits);
         const Row<T> row = source.template row<kTerms.damping>(entry, others);
         const V separationSq = dot(row.separation, row.separation);
         const V distanceSq = law.squareMeters(separationSq);

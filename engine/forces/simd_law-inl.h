@@ -136,14 +136,7 @@ struct OneLaw {
     struct None {};
     HWY_INLINE None traits(const std::int32_t* /*indices*/) const { return {}; }
 
-    /// The law of the pairs of the own particles and others with these traits.
-    HWY_INLINE const Law<T, variant>& of(None /*others*/) const { return law; }
-};
-
-/// A row of the table of materials for the pair in each SIMD lane; the fields are those of PairTableRow.
-template <class V>
-struct LaneRow {
-    V b1, bd, coreSq, outerInverseSq, inverseReachSq, friction, reach, halfSlope;
+    HWY_INLINE const Law<T, variant>& of(const std::int32_t* /*indices*/, None /*others*/) const { return law; }
 };
 
 /// The laws of pairs of several materials, of particles of several radii, or both. Which of the two it is costs a
@@ -154,132 +147,125 @@ struct MixedLaws {
     using V = Lanes<T>;
     static constexpr Tag<T> kTag{};
     static constexpr WholeTag<T> kWhole{};
+    using Row = PairTableRow<T>;
+    using PullRow = PullTableRow<T>;
+    /// In single precision, radius and material are loaded with what every pair needs, and a register holds more. Four
+    /// rows are the fewest that a table of several laws has.
+    static constexpr bool kHasTraits = std::is_same_v<T, float>;
+    static constexpr bool kCanLookUp = kHasTraits && hn::MaxLanes(kTag) >= 4;
 
     const Source& source;
     const PairTableIn<T>& table;
-    Law<T, variant> common;  ///< what all pairs have in common; of the constants only 1/D0^2, where there is one radius
-    bool hasLaws, hasRadii;
-    bool isSmall;        ///< whether each field of the table fits a SIMD register
-    Whole<T> firstRows;  ///< first row in the table of the own particles' materials
-    V ownRadius;
+    Law<T, variant> first;  ///< the law in the first row of the table
+    bool lawsDiffer, radiiDiffer;
+    bool isLookedUp;  ///< whether each field of the table fits a SIMD register
+    Traits<T> own;
+    Whole<T> firstRows;                            ///< index of the first row of the own particles' materials
+    std::array<const Row*, kClusterSize> ownRows;  ///< this row, by lane
+    std::array<const PullRow*, kClusterSize> ownPullRows;
 
     MixedLaws(const PairTraversal& pairs, const MatrixWeights& weights, const Source& from,
               const std::int32_t* ownIndices)
-        : source(from), table(pairs.table.in<T>()), common(pairs, weights) {
-        hasLaws = !pairs.terms.oneLaw;
-        hasRadii = !pairs.terms.oneRadius;
-        isSmall = table.rows.size() <= hn::Lanes(kTag);
-        common.constants.inverseRestSq = common.set(table.inverseRestSq);
-        const Traits<T> own = source.traits(ownIndices);
-        ownRadius = own.radius;
+        : source(from), table(pairs.table.in<T>()), first(pairs, weights), own(from.traits(ownIndices)) {
+        lawsDiffer = !pairs.terms.oneLaw;
+        radiiDiffer = !pairs.terms.oneRadius;
+        isLookedUp = kCanLookUp && lawsDiffer && hn::Lanes(kTag) >= table.rows.size();
         using Integer = hn::TFromD<decltype(kWhole)>;
         firstRows = hn::Mul(own.material, hn::Set(kWhole, static_cast<Integer>(pairs.table.materialCount)));
+        for (std::size_t lane = 0; lane < hn::Lanes(kTag) && lawsDiffer && !isLookedUp; ++lane) {
+            const std::size_t row = source.material(ownIndices[lane]) * pairs.table.materialCount;
+            ownRows[lane] = &table.rows[row];
+            if constexpr (variant.terms.cohesion) ownPullRows[lane] = &table.pullRows[row];
+        }
+        first.constants.inverseRestSq = first.set(table.inverseRestSq);
+        const auto numbers = [&](const T* at) {
+            return Fields<T>{first.set(at[0]), first.set(at[1]), first.set(at[2]), first.set(at[3])};
+        };
+        setStrengths(numbers(&table.rows.front().b1), first);
+        setEnergies(numbers(&table.rows.front().reach), first);
+        setRanges(numbers(&table.rows.front().reach), first);
+        if constexpr (variant.terms.cohesion) setPull(numbers(&table.pullRows.front().pull), first);
     }
 
-    HWY_INLINE Traits<T> traits(const std::int32_t* indices) const { return source.traits(indices); }
+    /// What the law of a pair depends on, of the particles with these indices.
+    HWY_INLINE Traits<T> traits(const std::int32_t* indices) const {
+        return kHasTraits || radiiDiffer ? source.traits(indices) : own;
+    }
 
-    /// The law of the pairs of the own particles and others with these traits.
-    HWY_INLINE Law<T, variant> of(const Traits<T>& others) const {
-        LaneRow<V> row;
-        readRow(others, row);
-        Law<T, variant> law = common;
-        PairConstants<V>& c = law.constants;
-        c.b1 = row.b1;
-        c.coreSq = row.coreSq;
-        c.inverseDampingSq = row.outerInverseSq;
-        c.inverseReachSq = hasDampingReach(variant.terms) ? row.inverseReachSq : row.outerInverseSq;
-        c.friction = row.friction;
-        c.bd = law.damping = row.bd;
-        if constexpr (law.kHasUnit) c.bd = hn::Mul(common.unit, row.bd);
-        law.reach = row.reach;
-        law.halfSlope = row.halfSlope;
-        c.reachSq = hn::Mul(row.reach, row.reach);
-        if constexpr (variant.terms.cohesion) readPull(others, c);
-        if (hasRadii) {
-            const V restLength = hn::Add(ownRadius, others.radius);
+    /// The law of the pairs of the own particles and those with these indices and traits.
+    HWY_INLINE Law<T, variant> of(const std::int32_t* indices, const Traits<T>& others) const {
+        Law<T, variant> law = first;
+        if (lawsDiffer) {
+            setStrengths(fieldsIn(ownRows, &Row::b1, 0, indices, others), law);
+            if constexpr (variant.hasEnergy) setEnergies(fieldsIn(ownRows, &Row::reach, 4, indices, others), law);
+            if (table.rangesDiffer) setRanges(fieldsIn(ownRows, &Row::reach, 4, indices, others), law);
+            if constexpr (variant.terms.cohesion)
+                setPull(fieldsIn(ownPullRows, &PullRow::pull, 8, indices, others), law);
+        }
+        if (radiiDiffer) {
+            const V restLength = hn::Add(own.radius, others.radius);
+            PairConstants<V>& c = law.constants;
             c = atRestLength<variant.terms.cohesion>(c, restLength);
-            law.reach = hn::Mul(row.reach, restLength);
+            law.reach = hn::Mul(law.reach, restLength);
             // The coefficient falls with the fifth power of the rest length.
             V inverseSq = c.inverseRestSq;
             if constexpr (variant.terms.cohesion) inverseSq = reciprocal(hn::Mul(restLength, restLength));
             law.halfSlope =
-                hn::Mul(hn::Mul(row.halfSlope, inverseSq), hn::Mul(inverseSq, hn::Mul(restLength, inverseSq)));
+                hn::Mul(hn::Mul(law.halfSlope, inverseSq), hn::Mul(inverseSq, hn::Mul(restLength, inverseSq)));
         }
-        law.inverseReach = hn::Mul(law.reach, c.inverseReachSq);
-        law.inverseReachCubed = hn::Mul(law.inverseReach, c.inverseReachSq);
-        law.a = hn::Add(c.inverseRestSq, c.inverseReachSq);
-        law.b = hn::Mul(c.inverseRestSq, c.inverseReachSq);
+        law.inverseReach = hn::Mul(law.reach, law.constants.inverseReachSq);
+        law.inverseReachCubed = hn::Mul(law.inverseReach, law.constants.inverseReachSq);
+        law.a = hn::Add(law.constants.inverseRestSq, law.constants.inverseReachSq);
+        law.b = hn::Mul(law.constants.inverseRestSq, law.constants.inverseReachSq);
         return law;
     }
 
  private:
-    /// Reads the rows of the table for the pairs of the own particles and these. The fields are assigned one by one, as
-    /// the compiler would copy whole structs through memory.
-    HWY_INLINE void readRow(const Traits<T>& others, LaneRow<V>& row) const {
-        if (!hasLaws) return assign(row, [&](std::size_t field) { return common.set(table.columns[field][0]); });
-        const Whole<T> rows = hn::Add(firstRows, others.material);
-        if constexpr (hn::MaxLanes(kTag) >= 4) {  // the fewest rows that a table of several laws has
-            if (isSmall) {
-                const auto at = hn::IndicesFromVec(kTag, rows);
-                return assign(row, [&](std::size_t field) {
-                    return hn::TableLookupLanes(hn::LoadU(kTag, table.columns[field].data()), at);
-                });
+    /// Four fields of the rows of the pairs of the own particles and others.
+    /// @param field   the first of the fields
+    /// @param column  its number among the columns of the table
+    template <class Row>
+    HWY_INLINE Fields<T> fieldsIn(const std::array<const Row*, kClusterSize>& rows, T Row::*field, std::size_t column,
+                                  const std::int32_t* indices, const Traits<T>& others) const {
+        if constexpr (kCanLookUp) {
+            if (isLookedUp) {
+                const auto at = hn::IndicesFromVec(kTag, hn::Add(firstRows, others.material));
+                const auto lookedUp = [&](std::size_t number) HWY_ATTR {
+                    return hn::TableLookupLanes(hn::LoadU(kTag, table.columns[number].data()), at);
+                };
+                return {lookedUp(column), lookedUp(column + 1), lookedUp(column + 2), lookedUp(column + 3)};
             }
         }
-        std::array<hn::TFromD<WholeTag<T>>, kClusterSize> indices;
-        hn::StoreU(rows, kWhole, indices.data());
-        constexpr std::int64_t kStride = sizeof(PairTableRow<T>) / sizeof(T);
-        const Fields<T> near = fieldsOf(&table.rows.front().b1, kStride, indices.data());
-        row.b1 = near.first;
-        row.bd = near.second;
-        row.coreSq = near.third;
-        row.outerInverseSq = near.fourth;
-        const Fields<T> far = fieldsOf(&table.rows.front().inverseReachSq, kStride, indices.data());
-        row.inverseReachSq = far.first;
-        row.friction = far.second;
-        row.reach = far.third;
-        row.halfSlope = far.fourth;
+        return fieldsAt<T>([&](std::size_t lane)
+                               HWY_ATTR { return &(rows[lane][source.material(indices[lane])].*field); });
     }
 
-    /// Reads the constants of the pull and the rest length of the pairs of the own particles and these.
-    HWY_INLINE void readPull(const Traits<T>& others, PairConstants<V>& c) const {
-        const auto assignPull = [&](const auto& value) {
-            c.pull = value(0);
-            c.pullReachSq = value(1);
-            c.inversePullWidth = value(2);
-            c.inverseRestSq = value(3);
-        };
-        if (!hasLaws) return assignPull([&](std::size_t field) { return common.set(table.pullColumns[field][0]); });
-        const Whole<T> rows = hn::Add(firstRows, others.material);
-        if constexpr (hn::MaxLanes(kTag) >= 4) {
-            if (isSmall) {
-                const auto at = hn::IndicesFromVec(kTag, rows);
-                return assignPull([&](std::size_t field) {
-                    return hn::TableLookupLanes(hn::LoadU(kTag, table.pullColumns[field].data()), at);
-                });
-            }
-        }
-        std::array<hn::TFromD<WholeTag<T>>, kClusterSize> indices;
-        hn::StoreU(rows, kWhole, indices.data());
-        constexpr std::int64_t kStride = sizeof(PullTableRow<T>) / sizeof(T);
-        const Fields<T> fields = fieldsOf(&table.pullRows.front().pull, kStride, indices.data());
-        c.pull = fields.first;
-        c.pullReachSq = fields.second;
-        c.inversePullWidth = fields.third;
-        c.inverseRestSq = fields.fourth;
+    // The fields of a row are assigned one by one, as the compiler would copy whole structs through memory.
+    HWY_INLINE static void setStrengths(const Fields<T>& fields, Law<T, variant>& law) {
+        law.constants.b1 = fields.first;
+        law.constants.bd = law.damping = fields.second;
+        if constexpr (std::is_same_v<T, float>) law.constants.bd = hn::Mul(law.unit, fields.second);
+        law.constants.inverseReachSq = fields.third;
+        law.constants.friction = fields.fourth;
+        if constexpr (!hasDampingReach(variant.terms)) law.constants.inverseDampingSq = fields.third;
     }
 
-    /// Assigns value(number of the field) to the fields of a row.
-    template <class Value>
-    HWY_INLINE static void assign(LaneRow<V>& row, const Value& value) {
-        row.b1 = value(0);
-        row.bd = value(1);
-        row.coreSq = value(2);
-        row.outerInverseSq = value(3);
-        row.inverseReachSq = value(4);
-        row.friction = value(5);
-        row.reach = value(6);
-        row.halfSlope = value(7);
+    HWY_INLINE static void setEnergies(const Fields<T>& fields, Law<T, variant>& law) {
+        law.reach = fields.first;
+        law.constants.reachSq = hn::Mul(law.reach, law.reach);
+        law.halfSlope = fields.second;
+    }
+
+    HWY_INLINE static void setRanges(const Fields<T>& fields, Law<T, variant>& law) {
+        law.constants.coreSq = fields.third;
+        if constexpr (hasDampingReach(variant.terms)) law.constants.inverseDampingSq = fields.fourth;
+    }
+
+    HWY_INLINE static void setPull(const Fields<T>& fields, Law<T, variant>& law) {
+        law.constants.pull = fields.first;
+        law.constants.pullReachSq = fields.second;
+        law.constants.inversePullWidth = fields.third;
+        law.constants.inverseRestSq = fields.fourth;
     }
 };
 

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
 
 #include "engine/core/simd_vectors-inl.h"
 #include "engine/forces/packed_particles.h"
@@ -65,19 +66,17 @@ HWY_INLINE void prefetchRows(const Entry* entry) {
 }
 
 #if HWY_TARGET != HWY_SCALAR
-/// A SIMD vector of 128-bit blocks, one from the packed particle of every `every`-th index in a list of indices.
-/// @param base    address of the block in the first packed particle
-/// @param stride  numbers from one packed particle to the next
-template <class D, class Index>
-HWY_INLINE hn::Vec<D> blocksFrom(D d, const hn::TFromD<D>* base, std::int64_t stride, const Index* indices,
-                                 std::size_t every) {
+/// A SIMD vector of 128-bit blocks, one from every `every`-th struct of those in the SIMD lanes.
+/// @param addressOf  returns the address of the block in the struct in a lane
+template <class D, class Address>
+HWY_INLINE hn::Vec<D> blocksFrom(D d, const Address& addressOf, std::size_t first, std::size_t every) {
     constexpr std::size_t kBlocks = hn::MaxLanes(D()) * sizeof(hn::TFromD<D>) / 16;
     if constexpr (kBlocks <= 1) {
-        return hn::Load(d, base + stride * indices[0]);
+        return hn::Load(d, addressOf(first));
     } else {
         const hn::Half<D> half;
-        return hn::Combine(d, blocksFrom(half, base, stride, indices + every * kBlocks / 2, every),
-                           blocksFrom(half, base, stride, indices, every));
+        return hn::Combine(d, blocksFrom(half, addressOf, first + every * kBlocks / 2, every),
+                           blocksFrom(half, addressOf, first, every));
     }
 }
 #endif
@@ -88,45 +87,43 @@ struct Fields {
     Lanes<T> first, second, third, fourth;
 };
 
-/// Loads four consecutive numbers of the structs with these indices in an array of structs. What is not used of them is
-/// not loaded.
-/// @param base    address of the first number in the first struct
-/// @param stride  numbers from one struct to the next
-template <class Index>
-HWY_INLINE Fields<double> fieldsOf(const double* base, std::int64_t stride, const Index* indices) {
-    constexpr Tag<double> kTag{};
+/// Loads four consecutive numbers of the structs in the SIMD lanes. What is not used of them is not loaded.
+/// @param addressOf  returns the address of the first number of the struct in a lane
+template <class T, class Address>
+HWY_INLINE Fields<T> fieldsAt(const Address& addressOf) {
+    constexpr Tag<T> kTag{};
 #if HWY_TARGET == HWY_SCALAR
-    const auto field = [&](int number) { return hn::Load(kTag, base + stride * indices[0] + number); };
+    const auto field = [&](int number) { return hn::Load(kTag, addressOf(0) + number); };
     return {field(0), field(1), field(2), field(3)};
 #else
-    // Two numbers of every other struct.
-    const auto pairs = [&](const double* field, const Index* first) {
-        return blocksFrom(kTag, field, stride, first, 2);
-    };
-    const auto ab0 = pairs(base, indices), ab1 = pairs(base, indices + 1);
-    const auto cd0 = pairs(base + 2, indices), cd1 = pairs(base + 2, indices + 1);
-    return {hn::InterleaveLower(kTag, ab0, ab1), hn::InterleaveUpper(kTag, ab0, ab1),
-            hn::InterleaveLower(kTag, cd0, cd1), hn::InterleaveUpper(kTag, cd0, cd1)};
+    if constexpr (std::is_same_v<T, double>) {
+        // Two numbers of every other struct.
+        const auto addressOfSecondTwo = [&](std::size_t lane) { return addressOf(lane) + 2; };
+        const auto ab0 = blocksFrom(kTag, addressOf, 0, 2), ab1 = blocksFrom(kTag, addressOf, 1, 2);
+        const auto cd0 = blocksFrom(kTag, addressOfSecondTwo, 0, 2), cd1 = blocksFrom(kTag, addressOfSecondTwo, 1, 2);
+        return {hn::InterleaveLower(kTag, ab0, ab1), hn::InterleaveUpper(kTag, ab0, ab1),
+                hn::InterleaveLower(kTag, cd0, cd1), hn::InterleaveUpper(kTag, cd0, cd1)};
+    } else {
+        // Loads the four numbers of every fourth struct, then transposes four such vectors.
+        constexpr hn::Repartition<double, Tag<float>> kTwos{};
+        const auto lower = [&](auto a, auto b) { return hn::BitCast(kTwos, hn::InterleaveLower(kTag, a, b)); };
+        const auto upper = [&](auto a, auto b) { return hn::BitCast(kTwos, hn::InterleaveUpper(kTag, a, b)); };
+        const auto firsts = [&](auto a, auto b) { return hn::BitCast(kTag, hn::InterleaveLower(kTwos, a, b)); };
+        const auto seconds = [&](auto a, auto b) { return hn::BitCast(kTag, hn::InterleaveUpper(kTwos, a, b)); };
+        const auto a = blocksFrom(kTag, addressOf, 0, 4), b = blocksFrom(kTag, addressOf, 1, 4);
+        const auto c = blocksFrom(kTag, addressOf, 2, 4), d = blocksFrom(kTag, addressOf, 3, 4);
+        const auto low01 = lower(a, b), low23 = lower(c, d), high01 = upper(a, b), high23 = upper(c, d);
+        return {firsts(low01, low23), seconds(low01, low23), firsts(high01, high23), seconds(high01, high23)};
+    }
 #endif
 }
 
-HWY_INLINE Fields<float> fieldsOf(const float* base, std::int64_t stride, const std::int32_t* indices) {
-    constexpr Tag<float> kTag{};
-#if HWY_TARGET == HWY_SCALAR
-    const auto field = [&](int number) { return hn::Load(kTag, base + stride * indices[0] + number); };
-    return {field(0), field(1), field(2), field(3)};
-#else
-    // Loads the four numbers of every fourth struct, then transposes four such vectors.
-    constexpr hn::Repartition<double, Tag<float>> kTwos{};
-    const auto fours = [&](std::size_t first) { return blocksFrom(kTag, base, stride, indices + first, 4); };
-    const auto lower = [&](auto a, auto b) { return hn::BitCast(kTwos, hn::InterleaveLower(kTag, a, b)); };
-    const auto upper = [&](auto a, auto b) { return hn::BitCast(kTwos, hn::InterleaveUpper(kTag, a, b)); };
-    const auto firsts = [&](auto a, auto b) { return hn::BitCast(kTag, hn::InterleaveLower(kTwos, a, b)); };
-    const auto seconds = [&](auto a, auto b) { return hn::BitCast(kTag, hn::InterleaveUpper(kTwos, a, b)); };
-    const auto a = fours(0), b = fours(1), c = fours(2), d = fours(3);
-    const auto low01 = lower(a, b), low23 = lower(c, d), high01 = upper(a, b), high23 = upper(c, d);
-    return {firsts(low01, low23), seconds(low01, low23), firsts(high01, high23), seconds(high01, high23)};
-#endif
+/// The same of the structs with these indices in an array of structs.
+/// @param base    address of the first number in the first struct
+/// @param stride  numbers from one struct to the next
+template <class T>
+HWY_INLINE Fields<T> fieldsOf(const T* base, std::int64_t stride, const std::int32_t* indices) {
+    return fieldsAt<T>([=](std::size_t lane) { return base + stride * indices[lane]; });
 }
 
 /// Loads particles in double precision, with positions in meters.
@@ -138,12 +135,13 @@ struct DoubleLanes {
     static constexpr hn::Rebind<std::int64_t, Tag<double>> kWide{};
     static constexpr std::int64_t kStride = sizeof(PackedParticle) / sizeof(double);
 
+    const PackedParticle* particles;
     const double* base;  ///< address of the first packed particle
     hn::Vec<decltype(kIndices)> ownIndices;
     Loaded<V, V> own;
 
     DoubleLanes(const std::vector<PackedParticle>& all, const std::int32_t* indices)
-        : base(&all.front().x), ownIndices(hn::LoadU(kIndices, indices)) {
+        : particles(all.data()), base(&all.front().x), ownIndices(hn::LoadU(kIndices, indices)) {
         own = load<true>(indices);
     }
 
@@ -162,6 +160,8 @@ struct DoubleLanes {
         // The material is the lower half of the last eight bytes.
         return {fields.third, hn::And(hn::BitCast(kWhole, fields.fourth), hn::Set(kWhole, 0xFFFFFFFF))};
     }
+
+    std::uint32_t material(std::int32_t index) const { return particles[index].material; }
 
     /// The pairs of the own particles and the neighbors `others`, which were loaded for these indices.
     template <bool needsVelocity>
@@ -216,6 +216,8 @@ struct FloatLanes {
         return {fieldsOf(base, kStride, indices).fourth,
                 hn::BitCast(kWhole, fieldsOf(base + 4, kStride, indices).fourth)};
     }
+
+    std::uint32_t material(std::int32_t index) const { return all.particles[static_cast<std::size_t>(index)].material; }
 
     /// The pairs of the own particles and the neighbors `others`, which were loaded for these indices.
     template <bool needsVelocity>

@@ -218,10 +218,6 @@ void findLinks(const PairTraversal& pairs, const Particles& particles, HeatNetwo
 
 std::vector<double> dissipationOf(const PairTraversal& pairs, const Particles& particles) {
     std::vector<double> powers(particles.count(), 0.0);
-    // Read where they are: copies of the constants would take longer than what is computed from them.
-    const PairTable& table = pairs.table;
-    const bool areTabulated = pairs.terms.oneRadius && (table.oneLaw || !table.mixtures.empty());
-    const std::size_t stride = table.oneLaw ? 0 : table.materialCount;
     pairs.forEachParticle([&](std::size_t laneSlot) {
         const std::uint32_t p = pairs.order()[pairs.sortedIndexAt(laneSlot)];
         if (p == kGhost) return;
@@ -230,11 +226,10 @@ std::vector<double> dissipationOf(const PairTraversal& pairs, const Particles& p
         double power = 0.0;
         pairs.forEachNeighbor(laneSlot, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
             const PackedParticle& neighbor = pairs.packed[other];
-            const PairConstants<double>* constants = &computed;
-            if (areTabulated)
-                constants = &table.constants[stride == 0 ? 0 : own.material * stride + neighbor.material];
-            else
-                computed = pairs.constants(own, neighbor);
+            // Read where they are: copies of the constants would take longer than what is computed from them.
+            const PairConstants<double>* constants =
+                pairs.terms.oneRadius ? pairs.table.entryOf(own.material, neighbor.material) : nullptr;
+            if (constants == nullptr) constants = &(computed = pairs.constants(own, neighbor));
             power += halfDissipation(own, neighbor, separation, distanceSq, *constants);
         });
         powers[p] = power;
