@@ -6,6 +6,7 @@
 
 #include "engine/error_control/step_control.h"
 #include "engine/error_control/step_cost.h"
+#include "engine/heat/agitation.h"
 #include "engine/heat/heat_moment.h"
 #include "engine/state/state_checks.h"
 #include "engine/stepping/obstacle_loads.h"
@@ -44,10 +45,11 @@ void checkIntervalEnd(Simulation& simulation, double time) {
     establishEnergy(simulation, time);
 }
 
-/// The latest time at which the next step must end, s: the requested time, or an emission or an exchange of heat before
-/// it. A step across an emission would leave the new particle without forces until the start of the next step.
+/// The latest time at which the next step must end, s: the requested time, or an emission, an exchange of heat or an
+/// agitation before it. A step across an emission would leave the new particle without forces until the start of the
+/// next step.
 double nextStop(const Simulation& simulation, double time) {
-    const double stop = std::min(nextEmission(simulation), nextHeatMoment(simulation));
+    const double stop = std::min({nextEmission(simulation), nextHeatMoment(simulation), nextAgitation(simulation)});
     return stop < time - kSameMoment ? stop : time;
 }
 
@@ -100,7 +102,8 @@ bool advanceChecked(Simulation& simulation, double time, double longest, StepLim
         history.add(simulation);
         takeStep(simulation, h);
         const bool isHeatDue = count == 1.0 && isHeatDueAt(simulation, stop);
-        if (count == 1.0 && (stop == time || isHeatDue)) checkIntervalEnd(simulation, stop);
+        const bool isAgitationDue = count == 1.0 && isAgitationDueAt(simulation, stop);
+        if (count == 1.0 && (stop == time || isHeatDue || isAgitationDue)) checkIntervalEnd(simulation, stop);
         std::optional<StepLimit> rejection = rejectionReason(simulation, history.latest());
         std::optional<double> estimate;
         if (errors != nullptr && !rejection) {
@@ -128,8 +131,9 @@ bool advanceChecked(Simulation& simulation, double time, double longest, StepLim
         if (isHeatDue) {
             if (exchangeHeatDue(simulation)) establishEnergy(simulation, simulation.time);
             simulation.cache->energyAtHeat = *simulation.cache->energy - simulation.cache->workAtEnergy;
-            history.clear();
         }
+        if (isAgitationDue) agitateDue(simulation);
+        if (isHeatDue || isAgitationDue) history.clear();
         emitDue(simulation);
         if (++restriction.passed % kAcceptedBeforeLonger == 0) restriction.seconds *= 2.0;
     }

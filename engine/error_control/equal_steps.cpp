@@ -1,6 +1,7 @@
 // Emits particles, takes a step, exchanges heat, and checks that nothing has become invalid.
 #include "engine/error_control/equal_steps.h"
 
+#include "engine/heat/agitation.h"
 #include "engine/heat/heat_moment.h"
 #include "engine/state/state_checks.h"
 #include "engine/stepping/obstacle_loads.h"
@@ -28,10 +29,11 @@ void advanceInEqualSteps(Simulation& simulation, double time) {
         acceptLoads(simulation);
         if (!areAllValid) requireValid(simulation, h);
         const double end = step + 1.0 < count ? from + (step + 1.0) * h : time;
-        if (isHeatDueAt(simulation, end)) {
-            simulation.time = end;
-            exchangeHeatDue(simulation);
-        }
+        const bool isHeatDue = isHeatDueAt(simulation, end);
+        const bool isAgitationDue = isAgitationDueAt(simulation, end);
+        if (isHeatDue || isAgitationDue) simulation.time = end;
+        if (isHeatDue) exchangeHeatDue(simulation);
+        if (isAgitationDue) agitateDue(simulation);
     }
     simulation.time = time;
     emitDue(simulation);

@@ -26,6 +26,7 @@ struct Material {
     Thermal thermal = {};         ///< the paper has no heat
     double cohesion = 0.0;        ///< surface tension sigma, N/m; the paper has none. Set by withCohesion()
     double pull = 0.0;            ///< strength kappa of the pull that makes it, N/m
+    double agitation = 0.0;       ///< energy of random motion over sigma D0^2; the paper has none. See heat/agitation.h
     double restRatio = 1.0;       ///< distance at which repulsion ends, in rest lengths; above 1 where there is a pull
 };
 

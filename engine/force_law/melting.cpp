@@ -43,6 +43,7 @@ std::vector<Material> stagesOf(const Material& solid, const Material& melt, std:
         stage.friction = between(solid.friction, melt.friction, at);
         stage.coreFraction = between(solid.coreFraction, melt.coreFraction, at);
         stage.cohesion = between(solid.cohesion, melt.cohesion, at);
+        stage.agitation = between(solid.agitation, melt.agitation, at);
         stage.pull = between(solid.pull, melt.pull, at);
         stage.restRatio = between(solid.restRatio, melt.restRatio, at);
         stages.push_back(stage);

@@ -20,7 +20,7 @@ static_assert(std::endian::native == std::endian::little, "checkpoints are littl
 
 /// Version of the checkpoint format: kCheckpointMark in ASCII and a digit or capital, another for every change of
 /// what is stored.
-constexpr std::uint64_t kFormat = 0x44504B434C424C47;
+constexpr std::uint64_t kFormat = 0x45504B434C424C47;
 
 constexpr std::size_t kChecksumBytes = 8;
 
@@ -170,6 +170,7 @@ void exchangeCommon(Archive& archive, State& simulation) {
     archive(simulation.wallDepths.deepest, simulation.wallDepths.centersOutside);
     auto& heat = simulation.heat;
     archive(heat.exchangeCount, heat.pending, heat.received, heat.damped, heat.ofMelting);
+    archive(simulation.agitation.count, simulation.agitation.work);
     for (auto& load : simulation.loads) {
         for (int axis = 0; axis < 3; ++axis) archive(load.impulse[axis], load.angularImpulse[axis]);
         archive(load.work);

@@ -156,6 +156,7 @@ void copyCommon(const Simulation& simulation, Simulation& whole) {
     whole.steps = simulation.steps;
     whole.wallDepths = simulation.wallDepths;
     whole.heat = simulation.heat;
+    whole.agitation = simulation.agitation;
     whole.loads = simulation.loads;
     whole.particles.nextId = simulation.particles.nextId;
 }

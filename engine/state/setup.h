@@ -52,6 +52,7 @@ struct Setup {
     std::vector<Field> fields;
     Obstacles obstacles;
     std::optional<HeatSetup> heat;     ///< none for a run without heat
+    double agitationInterval = 0.0;    ///< time between random impulses, s; 0 for a run without agitation
     std::optional<BoundingBox> world;  ///< bounds of the world; particles outside are removed
     std::vector<Emitter> emitters;
     Particles initial;  ///< particles at time zero

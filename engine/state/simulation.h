@@ -125,6 +125,12 @@ struct HeatState {
     double ofMelting = 0.0;  ///< kinetic and potential energy that changing constants took from heat, J
 };
 
+/// What a run has booked of the random motion of its particles. Nothing in a run without agitation.
+struct AgitationState {
+    std::uint64_t count = 0;  ///< how often random impulses were given so far
+    double work = 0.0;        ///< kinetic energy that they gave, J
+};
+
 struct StepCache;
 
 /// Owns the step cache of a simulation and copies it with the simulation. The type of the cache is incomplete here, so
@@ -161,6 +167,7 @@ struct Simulation {
     StepStatistics steps;
     WallDepths wallDepths;
     HeatState heat;
+    AgitationState agitation;
     std::vector<ObstacleLoad> loads;  ///< of the obstacles, in their order; empty where none are recorded
     StepCachePointer cache;
     /// Called before every step with the simulation that takes it, which is a copy in the trial runs of error

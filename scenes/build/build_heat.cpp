@@ -1,9 +1,11 @@
-// Makes the heat of a scene, which it has if a material has a heat capacity, from keys of several tables.
+// Makes the heat of a scene, which it has if a material has a heat capacity, from keys of several tables; and how often
+// particles are agitated.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "engine/forces/force_field.h"
+#include "engine/heat/agitation.h"
 #include "scenes/build/builders.h"
 
 namespace scenes {
@@ -94,6 +96,12 @@ std::vector<engine::Melt> addMelts(Materials& materials, BuildContext& context) 
     return melts;
 }
 
+/// The longest time (s) that divides a frame evenly and is no longer than this.
+double partOfFrame(const Section& top, double longest) {
+    const double frame = top.frameRate("fps").timeOf(1);
+    return frame / std::ceil(frame / longest);
+}
+
 /// Temperature of the particles of a body or an emitter, K.
 double temperatureFor(const Section& section, const Section& material) {
     if (section.has("temperature")) return section.number("temperature");
@@ -127,14 +135,19 @@ void buildHeat(Sections& sections, Materials& materials, Scene& scene, BuildCont
         engine::Emitter& emitter = scene.setup.emitters[e];
         emitter.temperature = temperatureFor(sections.emitters[e], *materials.sections[emitter.material]);
     }
-    if (sections.physics.isValid() && sections.top.isValid()) {
-        const double frame = sections.top.frameRate("fps").timeOf(1);
-        heat.interval = frame / std::ceil(frame / sections.physics.number("heat_step"));
-    }
+    if (sections.physics.isValid() && sections.top.isValid())
+        heat.interval = partOfFrame(sections.top, sections.physics.number("heat_step"));
     engine::Particles& particles = scene.setup.initial;
     for (std::size_t p = 0; p < particles.enthalpy.size(); ++p)
         particles.material[p] =
             engine::stageAt(heat, materials.list, particles.material[p], particles.enthalpy[p] / particles.mass[p]);
+}
+
+void buildAgitation(const Sections& sections, const Materials& materials, engine::Setup& setup) {
+    double longest = std::numeric_limits<double>::infinity();
+    for (const engine::Material& material : materials.list)
+        longest = std::min(longest, engine::agitationInterval(material));
+    if (std::isfinite(longest) && sections.top.isValid()) setup.agitationInterval = partOfFrame(sections.top, longest);
 }
 
 }  // namespace scenes

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "engine/force_law/cohesion.h"
+#include "engine/heat/agitation.h"
 #include "scenes/build/builders.h"
 #include "scenes/build/columns.h"
 #include "scenes/schema/preset_info.h"
@@ -20,15 +21,16 @@ struct MaterialKey {
     double engine::Material::*member;
 };
 
-constexpr std::array<MaterialKey, 9> kMaterialKeys = {{{"radius", &engine::Material::radius},
-                                                       {"mass", &engine::Material::mass},
-                                                       {"b1", &engine::Material::repulsion},
-                                                       {"bd", &engine::Material::damping},
-                                                       {"cr", &engine::Material::repulsionReach},
-                                                       {"cd", &engine::Material::dampingReach},
-                                                       {"cohesion", &engine::Material::cohesion},
-                                                       {"friction", &engine::Material::friction},
-                                                       {"core", &engine::Material::coreFraction}}};
+constexpr std::array<MaterialKey, 10> kMaterialKeys = {{{"radius", &engine::Material::radius},
+                                                        {"mass", &engine::Material::mass},
+                                                        {"b1", &engine::Material::repulsion},
+                                                        {"bd", &engine::Material::damping},
+                                                        {"cr", &engine::Material::repulsionReach},
+                                                        {"cd", &engine::Material::dampingReach},
+                                                        {"cohesion", &engine::Material::cohesion},
+                                                        {"agitation", &engine::Material::agitation},
+                                                        {"friction", &engine::Material::friction},
+                                                        {"core", &engine::Material::coreFraction}}};
 
 /// The keys that follow from the radius where they are not given.
 constexpr std::array<MaterialKey, 3> kFollowing = {kMaterialKeys[1], kMaterialKeys[2], kMaterialKeys[3]};
@@ -152,6 +154,25 @@ std::string cohere(Section& section, engine::Material& material, BuildContext& c
     return note;
 }
 
+/// Checks that a material with random motion has what it needs, and returns what that means, for `check`.
+std::string agitate(Section& section, const engine::Material& material, BuildContext& context) {
+    if (material.agitation == 0.0) return {};
+    if (material.cohesion == 0.0) {
+        report(section, "agitation", context,
+               "agitation is a share of the energy of a surface: the material needs a cohesion above 0");
+        return {};
+    }
+    if (material.damping == 0.0) {
+        report(section, "agitation", context,
+               "agitation gives back what damping takes: the material needs a bd above 0");
+        return {};
+    }
+    return fmt::format("agitation {}: its particles move at {:.2g} m/s, and drops are rough by {:.2g} m",
+                       section.canonical("agitation"),
+                       std::sqrt(3.0 * engine::agitationEnergy(material) / material.mass),
+                       std::sqrt(engine::agitationEnergy(material) / material.cohesion));
+}
+
 /// Chooses between b1 and compression where both are given. Without compression there is no depth.
 void settleRepulsion(Section& section, BuildContext& context) {
     const bool isCompressed = section.isGiven("compression");
@@ -211,6 +232,7 @@ Materials buildMaterials(std::vector<Section>& sections, const std::vector<Secti
             addNote(materials.notes[index], note);
         }
         if (section.isValid()) addNote(materials.notes[index], cohere(section, materials.list[index], context));
+        if (section.isValid()) addNote(materials.notes[index], agitate(section, materials.list[index], context));
     }
     return materials;
 }

@@ -86,6 +86,8 @@ double enthalpyOf(const Section& section, const Materials& materials, std::uint3
 /// Adds heat to a scene that has any, after the particles, emitters and obstacles: the stages of what melts, and what
 /// exchanges heat. Records problems with keys of heat.
 void buildHeat(Sections& sections, Materials& materials, Scene& scene, BuildContext& context);
+/// Chooses how often particles get random impulses, once all materials are known.
+void buildAgitation(const Sections& sections, const Materials& materials, engine::Setup& setup);
 
 Study buildStudy(Section& section, BuildContext& context);
 

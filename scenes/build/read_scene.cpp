@@ -200,6 +200,7 @@ void build(Sections& sections, BuildContext& context, Scene& scene) {
     scene.look.common.samplesPerAxis = samplesPerAxis(sections.cameras.front());
     buildObstacles(sections.obstacles, sections.physics, sections.look, materials, scene, context);
     buildHeat(sections, materials, scene, context);
+    buildAgitation(sections, materials, scene.setup);
     buildOverlay(sections.overlay, sections.look, scene, context);
     readStill(sections, context, scene);
     checkSize(sections, context);

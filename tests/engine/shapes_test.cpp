@@ -77,7 +77,7 @@ Vec3 slopeOf(const Shape& shape, const Vec3& point, double step) {
 }
 
 double lengthOf(const Vec3& vector) {
-    return std::sqrt(squaredLength(vector));
+    return std::sqrt(engine::squaredLength(vector));
 }
 
 /// A bowl with a foot: sharp, blunt, inner and straight corners, and two stretches on the axis.
@@ -253,7 +253,7 @@ DistanceBricks bricksOf(const Value& valueAt, std::uint32_t bricksPerAxis, doubl
 }
 
 double sphereDistance(const Vec3& point) {
-    return std::sqrt(squaredLength(point)) - 0.5;
+    return std::sqrt(engine::squaredLength(point)) - 0.5;
 }
 
 }  // namespace

@@ -115,7 +115,10 @@ center = [0, 0, 0]
 )";
     const engine::Simulation with = simulated(oilScene("cohesion = 10\n", 4.0) + cube);
     const engine::Simulation without = simulated(oilScene("", 4.0) + cube);
+    const engine::Simulation liquid = simulated(oilScene("cohesion = 10\nagitation = 0.04\n", 4.0) + cube);
+    // Without random motion it sets before it is round.
     CHECK(roundnessOf(with.particles) > 0.56);
+    CHECK(roundnessOf(liquid.particles) > 0.59);
     CHECK(roundnessOf(without.particles) < 0.50);
     // Its volume stays: the radius of gyration of a ball of the same volume is sqrt(3/5) R.
     const double volume = static_cast<double>(with.particles.count()) * std::pow(0.16, 3) / std::sqrt(2.0);

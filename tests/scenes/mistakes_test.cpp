@@ -1,12 +1,15 @@
 // Tests every kind of mistake that a scene can have beyond its syntax, with the exact position and text of the message.
 #include "tests/catch.h"
 
+#include <cmath>
+
 #include "tests/scenes/scene_text.h"
 
 using scenes_test::kBall;
 using scenes_test::kTop;
 using scenes_test::Lines;
 using scenes_test::problemsOf;
+using scenes_test::sceneOf;
 
 TEST_CASE("a scene without mistakes has no problems") {
     CHECK(problemsOf(kBall) == Lines{});
@@ -231,8 +234,9 @@ TEST_CASE("corners, directions and cameras are checked") {
           Lines{"pile.toml:3:1: direction is missing, a disc whose velocity is zero needs it"});
     CHECK(problemsOf(kTop + "[[emitter]]\nshape = \"ring\"\nposition = [0, 0, 0]\nradius = 1\nrate = 1\n") ==
           Lines{"pile.toml:3:1: direction is missing, a ring whose velocity is zero needs it"});
-    CHECK(problemsOf(kBall + "[look]\ncolor_by = \"speed\"\ncolor_range = [2, 1]\n") ==
-          Lines{"pile.toml:8:15: color_range is [2, 1], must be two numbers [low, high], low below high (m/s, s or K)"});
+    CHECK(
+        problemsOf(kBall + "[look]\ncolor_by = \"speed\"\ncolor_range = [2, 1]\n") ==
+        Lines{"pile.toml:8:15: color_range is [2, 1], must be two numbers [low, high], low below high (m/s, s or K)"});
 }
 
 TEST_CASE("materials have to be defined exactly once") {
@@ -363,4 +367,28 @@ TEST_CASE("surface tensions and contact angles that make no sense are refused") 
     CHECK(material("preset = \"solid\"\ncr = 1.2\ncohesion = 1\n") == Lines{});
     CHECK(problemsOf(kBall + "[[obstacle]]\nshape = \"plane\"\ncontact_angle = 200\n") ==
           Lines{"pile.toml:8:17: contact_angle is 200, must be 0 to 180 (degrees)"});
+}
+
+TEST_CASE("random motion needs a surface and damping") {
+    const auto material = [](const std::string& lines) { return problemsOf(kBall + "[[material]]\n" + lines); };
+    CHECK(
+        material("preset = \"oil\"\nagitation = 0.05\n") ==
+        Lines{
+            "pile.toml:8:13: agitation is a share of the energy of a surface: the material needs a cohesion above 0"});
+    CHECK(material("preset = \"oil\"\nbd = 0\ncohesion = 4\nagitation = 0.05\n") ==
+          Lines{"pile.toml:10:13: agitation gives back what damping takes: the material needs a bd above 0"});
+    CHECK(material("preset = \"oil\"\ncohesion = 4\nagitation = 2\n") ==
+          Lines{"pile.toml:9:13: agitation is 2, must be 0 to 1"});
+}
+
+TEST_CASE("particles are agitated in equal parts of a frame") {
+    const auto intervalWith = [](const std::string& keys) {
+        return sceneOf(kBall + "[[material]]\npreset = \"oil\"\ncohesion = 4\n" + keys).setup.agitationInterval;
+    };
+    CHECK(intervalWith("") == 0.0);
+    const double interval = intervalWith("agitation = 0.04\n");
+    const double perFrame = 1.0 / (30.0 * interval);
+    CHECK(perFrame == Approx(std::round(perFrame)));
+    CHECK(intervalWith("agitation = 0.04\nbd = 0.5\n") < interval);  // twice the damping
+    CHECK(intervalWith("agitation = 0.08\n") == interval);
 }

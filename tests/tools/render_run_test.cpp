@@ -1,5 +1,6 @@
 // Tests whole runs of the program: they write the promised files, repeat them byte for byte, and video and frames
 // agree.
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -94,6 +95,21 @@ TEST_CASE("run.json of a run with heat says where the heat is from, and others h
     const auto chilled = simulated("chilled")["heat"];
     CHECK(chilled["received"] < 0.0);
     CHECK(chilled["paid_for_melting"] == 0.0);
+}
+
+TEST_CASE("A run and check say what random motion takes", "[tools]") {
+    const program::Folder folder;
+    const std::string scene = (folder / "drop.toml").string();
+    std::ofstream(scene) << "title = \"drop\"\nduration = 0.2\nfps = 10\n[material]\npreset = \"oil\"\ncohesion = 10\n"
+                            "agitation = 0.05\n[[body]]\nshape = \"ball\"\nradius = 0.4\n";
+    const auto check = nlohmann::json::parse(run("check " + scene + " --json").out);
+    const double interval = check["agitation_interval"];
+    CHECK(check["materials"][0]["agitation"] == 0.05);
+    CHECK(run("check " + scene).out.find("random impulses every") != std::string::npos);
+    REQUIRE(run("simulate " + scene + " --quiet -o " + (folder / "drop").string()).code == 0);
+    const auto agitation = nlohmann::json::parse(textOf(folder / "drop" / "run.json"))["agitation"];
+    CHECK(agitation["count"] == std::lround(0.1 / interval));  // one of two frames is simulated
+    CHECK(agitation["work"] > 0.0);
 }
 
 TEST_CASE("A run and check say that particles have left the scene", "[tools]") {

@@ -98,17 +98,10 @@ Json boundJson(const scenes::Scene& scene, const std::string& stepperName) {
 
 /// The constants of a material, under the names of the keys of a scene file, and why mass, b1 and bd are what they are.
 Json materialJson(const engine::Material& material, const std::string& note) {
-    return {{"name", material.name},
-            {"b1", material.repulsion},
-            {"bd", material.damping},
-            {"cr", material.repulsionReach},
-            {"cd", material.dampingReach},
-            {"radius", material.radius},
-            {"mass", material.mass},
-            {"core", material.coreFraction},
-            {"friction", material.friction},
-            {"cohesion", material.cohesion},
-            {"note", note}};
+    return {{"name", material.name},         {"b1", material.repulsion},        {"bd", material.damping},
+            {"cr", material.repulsionReach}, {"cd", material.dampingReach},     {"radius", material.radius},
+            {"mass", material.mass},         {"core", material.coreFraction},   {"friction", material.friction},
+            {"cohesion", material.cohesion}, {"agitation", material.agitation}, {"note", note}};
 }
 
 /// Whether a material is a stage of one that melts; the scene file does not have it.
@@ -188,6 +181,7 @@ Json sceneJson(const scenes::Scene& scene) {
         if (!isBetween(scene, index))
             json["materials"].push_back(materialJson(scene.setup.materials[index], scene.materialNotes[index]));
     json["heat"] = heatJson(scene);
+    json["agitation_interval"] = scene.setup.agitationInterval;
     json["bodies"] = Json::array();
     for (const scenes::BodyColumn& body : scene.bodyColumns) json["bodies"].push_back(bodyJson(body));
     json["meshes"] = scene.meshNotes;
@@ -408,6 +402,8 @@ std::string checkText(const Json& json) {
             text += fmt::format("           {}\n", note);
     }
     text += heatText(json["heat"]);
+    if (const double interval = json["agitation_interval"].get<double>(); interval > 0.0)
+        text += fmt::format("agitation  random impulses every {:.3g} s\n", interval);
     text += bodiesText(json["bodies"]);
     for (const Json& mesh : json["meshes"]) text += fmt::format("mesh       {}\n", mesh.get<std::string>());
     text += fmt::format("obstacles  {}\n", json["obstacles"].get<std::size_t>());

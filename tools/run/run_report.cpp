@@ -167,6 +167,8 @@ Json runJson(const scenes::Scene& scene, FinishedRun& run) {
                      {"deepest", simulation.wallDepths.deepest},
                      {"centers_outside", simulation.wallDepths.centersOutside}};
     if (!simulation.loads.empty()) json["obstacles"] = loadsJson(scene, simulation);
+    if (simulation.setup.agitationInterval > 0.0)
+        json["agitation"] = {{"count", simulation.agitation.count}, {"work", simulation.agitation.work}};
     if (simulation.setup.heat) json["heat"] = heatJson(simulation.heat);
     json["frames"] = report.frames;
     json["resumed_from"] = report.resumedFrom ? Json(*report.resumedFrom) : Json(nullptr);
