@@ -81,6 +81,14 @@ struct PairTraversal {
         return terms.oneRadius ? c : atRestLength<true>(c, p.radius + i.radius);
     }
 
+    /// The same without a copy where they are tabulated, which would take longer than what is computed from them.
+    /// @param computed  holds them where they are not
+    const PairConstants<double>& constants(const PackedParticle& p, const PackedParticle& i,
+                                           PairConstants<double>& computed) const {
+        const PairConstants<double>* const entry = terms.oneRadius ? table.entryOf(p.material, i.material) : nullptr;
+        return entry != nullptr ? *entry : computed = constants(p, i);
+    }
+
     /// Index, in the order of the neighbor list, of the particle in a lane slot.
     std::uint32_t sortedIndexAt(std::size_t laneSlot) const {
         return static_cast<std::uint32_t>(list.rows.ownIndices[laneSlot]);

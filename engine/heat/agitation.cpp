@@ -50,11 +50,12 @@ class Impulses {
         const PackedParticle& own = pairs_.packed[pairs_.sortedIndexAt(laneSlot)];
         Vec3 sum = Vec3::Zero();
         if (roots_[own.material] == 0.0) return sum;
+        PairConstants<double> computed;
         pairs_.forEachWithin(reach_, laneSlot, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
             const PackedParticle& neighbor = pairs_.packed[other];
             const double energy = roots_[own.material] * roots_[neighbor.material];
             if (energy == 0.0) return;
-            const double damping = pairDampingOverSq(distanceSq, pairs_.constants(own, neighbor));
+            const double damping = pairDampingOverSq(distanceSq, pairs_.constants(own, neighbor, computed));
             if (damping == 0.0) return;
             const double variance = 2.0 * damping * energy * seconds_;
             sum += impulseOverSeparation(key_, own.id, neighbor.id, variance) * separation;

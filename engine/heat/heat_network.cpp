@@ -226,11 +226,7 @@ std::vector<double> dissipationOf(const PairTraversal& pairs, const Particles& p
         double power = 0.0;
         pairs.forEachNeighbor(laneSlot, [&](std::uint32_t other, const Vec3& separation, double distanceSq) {
             const PackedParticle& neighbor = pairs.packed[other];
-            // Read where they are: copies of the constants would take longer than what is computed from them.
-            const PairConstants<double>* constants =
-                pairs.terms.oneRadius ? pairs.table.entryOf(own.material, neighbor.material) : nullptr;
-            if (constants == nullptr) constants = &(computed = pairs.constants(own, neighbor));
-            power += halfDissipation(own, neighbor, separation, distanceSq, *constants);
+            power += halfDissipation(own, neighbor, separation, distanceSq, pairs.constants(own, neighbor, computed));
         });
         powers[p] = power;
     });
