@@ -19,8 +19,8 @@ namespace {
 /// Distinguishes the random numbers of agitation from others of the same seed.
 constexpr std::uint64_t kStream = 0x61676974617465ULL;
 
-/// Share of the time in which damping takes e times the energy of random motion that an interval lasts. Chosen: the
-/// energy then varies by a fifth above and below its mean.
+/// How long an interval lasts, as a share of the time in which damping takes all but 1/e of the energy of random
+/// motion. Chosen: the energy then varies by a fifth above and below its mean.
 constexpr double kIntervalShare = 0.5;
 
 /// The impulse that two particles get along their separation, as a multiple of it, in kg/s. The random number has the

@@ -41,6 +41,7 @@ Material moltenWax() {
     melt.repulsionReach = 1.0;
     melt.friction = 0.0;
     melt.cohesion = 0.4;
+    melt.agitation = 0.05;
     return melt;
 }
 
@@ -107,6 +108,7 @@ TEST_CASE("Stages go from the solid to the melt, by equal factors or differences
         CHECK(stages[k].damping == Approx(4.0 * std::pow(0.1, share)).epsilon(1e-12));
         CHECK(stages[k].friction == Approx(0.3 * (1.0 - share)).margin(1e-15));
         CHECK(stages[k].cohesion == Approx(0.4 * share));
+        CHECK(stages[k].agitation == Approx(0.05 * share));
         CHECK(stages[k].thermal == wax().thermal);
     }
     CHECK(stages.back().repulsion == moltenWax().repulsion);
