@@ -61,6 +61,13 @@ studies::FlickerSettings flickerSettingsFor(const PicturesOptions& options) {
     return settings;
 }
 
+studies::SmoothingSettings smoothingSettingsFor(const PicturesOptions& options,
+                                                const studies::PictureSettings& pictures) {
+    studies::SmoothingSettings settings{pictures.particles, pictures.sizes.front(), pictures.frames};
+    if (options.quick) settings.spacing = 0.5;
+    return settings;
+}
+
 /// OpenGL as the study uses it.
 struct OpenGl {
     std::unique_ptr<render::Context> context;  ///< null: the renderer on the CPU is measured alone
@@ -119,7 +126,7 @@ PictureResults measure(const PicturesOptions& options, const studies::PictureSet
                                               [&](const std::vector<studies::FlickerRow>& rows) {
                                                   writeFile(folder / "flicker.csv", studies::flickerCsv(rows));
                                               });
-    results.smoothing = studies::measureSmoothing({settings.particles, settings.sizes.front(), settings.frames},
+    results.smoothing = studies::measureSmoothing(smoothingSettingsFor(options, settings),
                                                   [&](const std::vector<studies::SmoothingRow>& rows) {
                                                       writeFile(folder / "skins.csv", studies::smoothingCsv(rows));
                                                   });
