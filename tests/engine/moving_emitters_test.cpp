@@ -42,7 +42,7 @@ NewParticle particleAt(const Setup& setup, double time, double late) {
     return particles.front();
 }
 
-void checkNear(const Vec3& found, const Vec3& expected, double tolerance) {
+void checkClose(const Vec3& found, const Vec3& expected, double tolerance) {
     INFO("found " << found.transpose() << ", expected " << expected.transpose());
     CHECK((found - expected).norm() <= tolerance);
 }
@@ -79,9 +79,11 @@ TEST_CASE("An emitter that travels gives its particles its own velocity", "[emit
         for (const double late : {0.0, 0.004}) {
             const double born = time - late;
             const NewParticle particle = particleAt(setup, time, late);
-            checkNear(particle.velocity, velocity + travel + late * setup.gravity, 1e-14);  // a few roundings below 10
-            checkNear(particle.position,
-                      position + born * travel + late * (velocity + travel) + 0.5 * late * late * setup.gravity, 1e-14);
+            checkClose(particle.velocity, velocity + travel + late * setup.gravity,
+                       1e-14);  // a few roundings below 10
+            checkClose(particle.position,
+                       position + born * travel + late * (velocity + travel) + 0.5 * late * late * setup.gravity,
+                       1e-14);
             CHECK(particle.birthTime == born);
         }
 }
@@ -95,8 +97,8 @@ TEST_CASE("An emitter that turns throws its particles along the tangent, too", "
         const double c = std::cos(spin * time);
         const NewParticle particle = particleAt(setup, time, 0.0);
         // A turn about y takes x to (cos, 0, -sin); the tangent there is (-sin, 0, -cos). A few roundings below 10.
-        checkNear(particle.position, pivot + Vec3(0.5 * c, 0.2, -0.5 * s), 1e-14);
-        checkNear(particle.velocity, Vec3(2.0 * c, 1, -2.0 * s) + 0.5 * spin * Vec3(-s, 0, -c), 2e-14);
+        checkClose(particle.position, pivot + Vec3(0.5 * c, 0.2, -0.5 * s), 1e-14);
+        checkClose(particle.velocity, Vec3(2.0 * c, 1, -2.0 * s) + 0.5 * spin * Vec3(-s, 0, -c), 2e-14);
     }
 }
 
@@ -106,15 +108,15 @@ TEST_CASE("An emitter glides along its keys, and rests before and after them", "
     Motion motion{.pivot = from};
     motion.keys = {{1.0, from, Vec3::Zero()}, {3.0, to, Vec3(0, 0, 90)}};
     const Setup setup = nozzleAt(from, Vec3(0, -2, 0), motion);
-    checkNear(particleAt(setup, 0.5, 0.0).position, from, 1e-15);
-    checkNear(particleAt(setup, 0.5, 0.0).velocity, Vec3(0, -2, 0), 1e-15);
-    checkNear(particleAt(setup, 9.0, 0.0).position, to, 1e-15);
-    checkNear(particleAt(setup, 9.0, 0.0).velocity, Vec3(2, 0, 0), 1e-15);
+    checkClose(particleAt(setup, 0.5, 0.0).position, from, 1e-15);
+    checkClose(particleAt(setup, 0.5, 0.0).velocity, Vec3(0, -2, 0), 1e-15);
+    checkClose(particleAt(setup, 9.0, 0.0).position, to, 1e-15);
+    checkClose(particleAt(setup, 9.0, 0.0).velocity, Vec3(2, 0, 0), 1e-15);
     // Between two keys at rest the path is the cubic 3 u^2 - 2 u^3, whose slope in the middle is 1.5.
     const NewParticle middle = particleAt(setup, 2.0, 0.0);
     const double half = 2.0 / std::sqrt(2.0);
-    checkNear(middle.position, 0.5 * (from + to), 1e-14);
-    checkNear(middle.velocity, Vec3(half, -half, 0) + 1.5 / 2.0 * (to - from), 1e-14);
+    checkClose(middle.position, 0.5 * (from + to), 1e-14);
+    checkClose(middle.velocity, Vec3(half, -half, 0) + 1.5 / 2.0 * (to - from), 1e-14);
 }
 
 TEST_CASE("A jet of an emitter that travels is the jet at rest, seen from elsewhere", "[emitters]") {
@@ -137,8 +139,8 @@ TEST_CASE("A jet of an emitter that travels is the jet at rest, seen from elsewh
     REQUIRE(moving.particles.count() == still.particles.count());
     for (std::size_t p = 0; p < still.particles.count(); ++p) {
         // Roundings of positions below 10 grow a little where particles push one another.
-        checkNear(moving.particles.position[p], still.particles.position[p] + still.time * travel, 1e-12);
-        checkNear(moving.particles.velocity[p], still.particles.velocity[p] + travel, 1e-11);
+        checkClose(moving.particles.position[p], still.particles.position[p] + still.time * travel, 1e-12);
+        checkClose(moving.particles.velocity[p], still.particles.velocity[p] + travel, 1e-11);
     }
 }
 

@@ -63,28 +63,28 @@ Setup stirred(StepperKind stepper) {
     return setup;
 }
 
-constexpr double kFrame = 0.03;  // s
+constexpr double kFrameTime = 0.03;  // s
 
 /// Enough for the automatic stepper to compare a run with twins, and few for the others.
 int frameCount(const Setup& setup) {
     return setup.stepper == StepperKind::automatic && !setup.emitters.empty() ? 32 : 4;
 }
 
-std::string hashOf(const std::vector<std::uint8_t>& checkpoint) {
+std::string hashOfCheckpoint(const std::vector<std::uint8_t>& checkpoint) {
     return hexadecimal(fnv1aOf(checkpoint));
 }
 
 /// The hash at the end of a run in one process.
 std::string endAlone(const Setup& setup) {
     Simulation simulation = start(setup);
-    for (int frame = 1; frame <= frameCount(setup); ++frame) advance(simulation, frame * kFrame);
+    for (int frame = 1; frame <= frameCount(setup); ++frame) advance(simulation, frame * kFrameTime);
     CHECK(simulation.particles.count() > 100);
     if (!setup.emitters.empty()) {
         CHECK(birthCount(simulation) > 1);
         CHECK(simulation.removedCount == 3);
         if (setup.stepper == StepperKind::automatic) CHECK(simulation.automatic.twinCount > 1);
     }
-    return hashOf(encodeCheckpoint(simulation));
+    return hashOfCheckpoint(encodeCheckpoint(simulation));
 }
 
 /// The hash at the end of the same run on some ranks, which exchange particles after every other frame.
@@ -95,14 +95,14 @@ std::string endOnRanks(const Setup& setup, int count, const Owner& owner) {
     onRanks(count, owner, [&](const Ranks& ranks) {
         Simulation simulation = start(setup, ranks);
         for (int frame = 1; frame <= frameCount(setup); ++frame) {
-            advance(simulation, frame * kFrame);
+            advance(simulation, frame * kFrameTime);
             if (frame % 2 == 0) redistribute(simulation);
         }
         const auto checkpoint = gatherCheckpoint(simulation);
         Simulation whole = start(setup);
         gather(simulation, whole);
         if (ranks.own() != 0) return;
-        end = hashOf(checkpoint);
+        end = hashOfCheckpoint(checkpoint);
         gathered = stateHash(whole.particles);
         inCheckpoint = stateHash(decodeCheckpoint(setup, checkpoint).particles);
     });
@@ -134,7 +134,7 @@ TEST_CASE("What a paddle stirs, and its loads, have the same bits on any ranks",
          {StepperKind::symplecticEuler, StepperKind::linearlyImplicit, StepperKind::automatic}) {
         INFO(nameOf(stepper));
         Simulation simulation = start(stirred(stepper));
-        advance(simulation, 2.0 * kFrame);
+        advance(simulation, 2.0 * kFrameTime);
         CHECK(simulation.loads.back().work != 0.0);
         checkDivisions(stirred(stepper));
     }
@@ -156,16 +156,16 @@ TEST_CASE("A run goes on from a checkpoint on any number of ranks", "[ranks][thr
         const Setup setup = busy(stepper);
         const std::string expected = endAlone(setup);
         Simulation half = start(setup);
-        for (int frame = 1; frame <= frameCount(setup) / 2; ++frame) advance(half, frame * kFrame);
+        for (int frame = 1; frame <= frameCount(setup) / 2; ++frame) advance(half, frame * kFrameTime);
         const std::vector<std::uint8_t> middle = encodeCheckpoint(half);
         std::string end;
         onRanks(3, thread_ranks::slabs(3, 0.21), [&](const Ranks& ranks) {
             Simulation simulation = ranks.own() == 0 ? decodeCheckpoint(setup, middle) : start(setup, Ranks::alone());
             divide(simulation, ranks);
             for (int frame = frameCount(setup) / 2 + 1; frame <= frameCount(setup); ++frame)
-                advance(simulation, frame * kFrame);
+                advance(simulation, frame * kFrameTime);
             const auto checkpoint = gatherCheckpoint(simulation);
-            if (ranks.own() == 0) end = hashOf(checkpoint);
+            if (ranks.own() == 0) end = hashOfCheckpoint(checkpoint);
         });
         CHECK(end == expected);
     }
