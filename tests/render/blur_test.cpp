@@ -345,12 +345,12 @@ TEST_CASE("Pictures of less than final quality have no blur", "[blur]") {
 }
 
 TEST_CASE("Blurred pictures have the same bits for any number of threads, and leave nothing behind", "[blur]") {
-    View balls = movingCloud(60, 3);
+    View balls = movingCloud(60, 2);
     balls.style = render::Style::metaballs;
     const View sharp = cloudWithObstacles(60);
     constexpr render::PictureSize kFewPixels{61, 38};
     const render::Image ofSharp = drawn(sharp, kFewPixels, Quality::final);
-    for (const View& view : {movingCloud(60, 3), balls}) {
+    for (const View& view : {movingCloud(60, 2), balls}) {
         const render::Image first = drawn(view, kFewPixels, Quality::final);
         for (const std::size_t threads : {1U, 2U}) {
             const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
