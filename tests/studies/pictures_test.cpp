@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "render/renderer.h"
 #include "studies/oracle/ball_grid.h"
 #include "studies/pictures/dam_break_view.h"
 #include "tests/catch.h"
