@@ -49,7 +49,7 @@ std::string hashAfter(Simulation simulation, int from, int to) {
 
 }  // namespace
 
-TEST_CASE("particles keep the energy of their random motion, whatever their damping", "[agitation][threads]") {
+TEST_CASE("particles keep the energy of their random motion, whatever their damping", "[agitation][long]") {
     for (const double damping : {0.1, 0.25, 1.0}) {
         Material material = agitated(0.05);
         material.damping = damping;
@@ -73,7 +73,7 @@ TEST_CASE("particles keep the energy of their random motion, whatever their damp
     }
 }
 
-TEST_CASE("agitation keeps momentum and angular momentum", "[agitation]") {
+TEST_CASE("agitation keeps momentum and angular momentum", "[agitation][threads]") {
     const Setup setup = dropOf(agitated(0.1), 6);
     Simulation simulation = start(setup);
     simulation.time = setup.agitationInterval;
