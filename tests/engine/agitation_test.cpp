@@ -6,13 +6,10 @@
 #include "engine/force_law/cohesion.h"
 #include "engine/heat/agitation.h"
 #include "engine/run/advance.h"
-#include "engine/run/checkpoint.h"
 #include "engine/run/diagnostics.h"
-#include "engine/run/redistribution.h"
 #include "tests/engine/clouds.h"
-#include "tests/engine/on_instruction_set.h"
 #include "tests/engine/runs.h"
-#include "tests/engine/thread_ranks.h"
+#include "tests/engine/same_bits.h"
 
 using namespace engine;
 
@@ -40,11 +37,6 @@ double kineticOf(const Particles& particles) {
     for (std::size_t p = 0; p < particles.count(); ++p)
         sum += 0.5 * particles.mass[p] * squaredLength(particles.velocity[p]);
     return sum;
-}
-
-std::string hashAfter(Simulation simulation, int from, int to) {
-    runs::advanceFrames(simulation, from, to);
-    return stateHash(simulation.particles);
 }
 
 }  // namespace
@@ -158,33 +150,14 @@ TEST_CASE("a run with agitation has the same bits on any instruction set, ranks 
         Setup setup = dropOf(agitated(0.05), 8, stepper);
         setup.materials.push_back(*materialPreset("honey"));
         for (std::size_t p = 0; p < setup.initial.count(); ++p) setup.initial.material[p] = p % 7 == 0 ? 1 : 0;
-        const std::string expected = hashAfter(start(setup), 0, kFrames);
-        for (const std::string& name : instructionSets()) {
-            const OnInstructionSet on(name);
-            INFO(name);
-            CHECK(hashAfter(start(setup), 0, kFrames) == expected);
-        }
-        Simulation half = start(setup);
-        runs::advanceFrames(half, 0, kFrames / 2);
-        CHECK(hashAfter(decodeCheckpoint(setup, encodeCheckpoint(half)), kFrames / 2, kFrames) == expected);
-        std::string onRanks;
-        thread_ranks::onRanks(3, thread_ranks::slabs(3, 0.3), [&](const Ranks& ranks) {
-            Simulation part = start(setup, ranks);
-            runs::advanceFrames(part, 0, kFrames / 2);
-            redistribute(part);
-            runs::advanceFrames(part, kFrames / 2, kFrames);
-            Simulation whole = start(setup);
-            gather(part, whole);
-            if (ranks.own() == 0) onRanks = stateHash(whole.particles);
-        });
-        CHECK(onRanks == expected);
+        same_bits::checkEverywhere(setup, kFrames);
     }
 }
 
 TEST_CASE("another seed gives other random impulses", "[agitation]") {
     Setup setup = dropOf(agitated(0.05), 4);
-    const std::string first = hashAfter(start(setup), 0, 1);
-    CHECK(hashAfter(start(setup), 0, 1) == first);
+    const std::string first = same_bits::hashAfter(start(setup), 0, 1);
+    CHECK(same_bits::hashAfter(start(setup), 0, 1) == first);
     setup.seed = 2;
-    CHECK(hashAfter(start(setup), 0, 1) != first);
+    CHECK(same_bits::hashAfter(start(setup), 0, 1) != first);
 }

@@ -11,14 +11,11 @@
 #include "engine/forces/forces.h"
 #include "engine/obstacles/contact.h"
 #include "engine/run/advance.h"
-#include "engine/run/checkpoint.h"
 #include "engine/run/diagnostics.h"
-#include "engine/run/redistribution.h"
 #include "tests/engine/clouds.h"
-#include "tests/engine/on_instruction_set.h"
 #include "tests/engine/rounding.h"
 #include "tests/engine/runs.h"
-#include "tests/engine/thread_ranks.h"
+#include "tests/engine/same_bits.h"
 
 using namespace engine;
 
@@ -235,11 +232,6 @@ Setup dropOnPlane(StepperKind stepper, Precision precision) {
     return setup;
 }
 
-std::string hashAfter(Simulation simulation, int from, int to) {
-    runs::advanceFrames(simulation, from, to);
-    return stateHash(simulation.particles);
-}
-
 }  // namespace
 
 TEST_CASE("a run with cohesion has the same bits on any instruction set, ranks and after a resume", "[cohesion]") {
@@ -248,26 +240,7 @@ TEST_CASE("a run with cohesion has the same bits on any instruction set, ranks a
         for (const Precision precision : {Precision::doubles, Precision::singles}) {
             INFO(nameOf(stepper) << ", precision " << static_cast<int>(precision));
             const Setup setup = dropOnPlane(stepper, precision);
-            const std::string expected = hashAfter(start(setup), 0, kFrames);
-            for (const std::string& name : instructionSets()) {
-                const OnInstructionSet on(name);
-                INFO(name);
-                CHECK(hashAfter(start(setup), 0, kFrames) == expected);
-            }
-            Simulation half = start(setup);
-            runs::advanceFrames(half, 0, kFrames / 2);
-            CHECK(hashAfter(decodeCheckpoint(setup, encodeCheckpoint(half)), kFrames / 2, kFrames) == expected);
-            std::string onRanks;
-            thread_ranks::onRanks(3, thread_ranks::slabs(3, 0.3), [&](const Ranks& ranks) {
-                Simulation part = start(setup, ranks);
-                runs::advanceFrames(part, 0, kFrames / 2);
-                redistribute(part);
-                runs::advanceFrames(part, kFrames / 2, kFrames);
-                Simulation whole = start(setup);
-                gather(part, whole);
-                if (ranks.own() == 0) onRanks = stateHash(whole.particles);
-            });
-            CHECK(onRanks == expected);
+            same_bits::checkEverywhere(setup, kFrames);
         }
 }
 
