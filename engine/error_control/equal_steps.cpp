@@ -1,4 +1,4 @@
-// Emits particles, takes a step, exchanges heat, and checks that nothing has become invalid.
+// Emits particles, takes a step, exchanges heat, agitates particles, and checks that nothing has become invalid.
 #include "engine/error_control/equal_steps.h"
 
 #include "engine/heat/agitation.h"

@@ -116,9 +116,8 @@ std::vector<Key> materialKeys() {
             .defaultsTo("0")
             .within(kNotNegative),
         key("agitation", Type::number, "",
-            "energy of the particles' random motion, in units of cohesion times the square of their diameter: from "
-            "0.03 "
-            "on, drops are liquid and round off; 0: none, as in the paper, and they set like a soft solid")
+            "energy of the particles' random motion, in units of cohesion times the square of their diameter: "
+            "from 0.03 on, drops are liquid and round off; 0: none, as in the paper, and they set like a soft solid")
             .defaultsTo("0")
             .within(kUnitInterval),
         key("friction", Type::number, "",
